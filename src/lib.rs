@@ -1,0 +1,3 @@
+//! Terraline.
+pub mod frame;
+pub mod scene;

@@ -1,3 +1,10 @@
 //! Terraline.
+pub mod fast;
 pub mod frame;
+pub mod plan;
+pub mod processor;
+pub mod readout;
 pub mod scene;
+pub mod setup;
+pub mod unit;
+pub mod word;

@@ -23,6 +23,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
+pub use crate::word::{Overflow, Rounding};
 pub use height_map::HeightMap;
 
 /// A complete scene: camera, screens, one surface, and the machine that draws it.
@@ -357,29 +358,4 @@ pub struct FormatRequest {
     pub rounding: Rounding,
     /// What happens to values that do not fit above.
     pub overflow: Overflow,
-}
-
-/// Rounding of a fixed-point result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Rounding {
-    /// Toward minus infinity: bits are dropped.
-    Floor,
-    /// Toward zero.
-    TowardZero,
-    /// To nearest, ties upward.
-    Nearest,
-    /// To nearest, ties to even.
-    NearestEven,
-    /// Up with the probability of the dropped fraction, drawn from the scene's seed and the
-    /// place of the operation.
-    Stochastic,
-}
-
-/// Overflow of a fixed-point result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Overflow {
-    /// Modulo 2^width.
-    Wrap,
-    /// To the nearest end of the range.
-    Saturate,
 }

@@ -1,0 +1,41 @@
+//! Direct entry into the projector's recurrence: any line, any column.
+//!
+//! In wrapping fixed point `start + k·step` is k additions (equation 7 of docs/mathematics.md),
+//! so lines are independent of each other and a line's columns fill in parallel.
+
+use crate::unit::Line;
+use crate::unit::projector::{LineStart, Linear, Projector};
+use crate::word::{Enter, World};
+
+/// A world whose accumulators may be entered anywhere.
+pub trait Enterable: World<View: Enter> {}
+impl<W: World<View: Enter>> Enterable for W {}
+
+/// The projector's accumulators at the first column of line `number`.
+pub fn line_start<W: Enterable>(projector: &Projector<W>, number: u32) -> LineStart<W> {
+    let at = |c: &Linear<W::View>| c.start.after(c.per_line, number);
+    LineStart {
+        x: at(&projector.x),
+        y: projector.y.as_ref().map(at),
+        z: at(&projector.z),
+        denominator: projector.denominator.as_ref().map(at),
+    }
+}
+
+/// Drives the view wires of one whole line.
+pub fn fill<W: Enterable>(projector: &Projector<W>, start: &LineStart<W>, line: &mut Line<W>) {
+    let columns = &line.column;
+    let wire = |start: W::View, c: &Linear<W::View>, wire: &mut [W::View]| {
+        for (out, &column) in wire.iter_mut().zip(columns) {
+            *out = start.after(c.per_column, column);
+        }
+    };
+    wire(start.x, &projector.x, &mut line.view_x);
+    wire(start.z, &projector.z, &mut line.view_z);
+    if let (Some(y), Some(c)) = (start.y, &projector.y) {
+        wire(y, c, &mut line.view_y);
+    }
+    if let (Some(d), Some(c)) = (start.denominator, &projector.denominator) {
+        wire(d, c, &mut line.denominator);
+    }
+}

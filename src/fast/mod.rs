@@ -1,0 +1,55 @@
+//! The fast engine: the processor's frame, bit for bit, by threads, direct entry and loops that
+//! vectorise.
+#![deny(clippy::float_arithmetic)]
+
+pub mod enter;
+
+use rayon::prelude::*;
+
+use crate::frame::Frame;
+use crate::plan::Plan;
+use crate::readout::FrameBuilder;
+use crate::setup::Setup;
+use crate::unit::Line;
+use crate::unit::divider::Method;
+use crate::word::Complete;
+use enter::Enterable;
+
+/// Lines that one task draws: enough to amortise its wires, few enough to balance two threads
+/// between sky and ground.
+const BAND: u32 = 16;
+
+/// Draws one line on wires that hold all columns.
+pub fn run_line<W: Complete + Enterable>(setup: &Setup<W>, number: u32, line: &mut Line<W>) {
+    line.number = number;
+    let start = enter::line_start(&setup.projector, number);
+    enter::fill(&setup.projector, &start, line);
+    if let Some(divider) = &setup.divider {
+        divider.run(line, Method::Direct);
+    }
+    setup.run_back(line);
+}
+
+/// Draws a whole frame on all threads.
+pub fn render<W: Complete + Enterable>(setup: &Setup<W>, plan: &Plan, buffers: bool) -> Frame {
+    let bands: Vec<FrameBuilder<'_>> = (0..setup.lines.div_ceil(BAND))
+        .into_par_iter()
+        .map_init(
+            || Line::new(&setup.world, 0..setup.columns),
+            |line, band| {
+                let lines = band * BAND..setup.lines.min((band + 1) * BAND);
+                let mut builder = FrameBuilder::new(plan, lines.len(), buffers, false);
+                for number in lines {
+                    run_line(setup, number, line);
+                    builder.push(line);
+                }
+                builder
+            },
+        )
+        .collect();
+    let mut frame = FrameBuilder::new(plan, setup.lines as usize, buffers, false);
+    for band in bands {
+        frame.append(band);
+    }
+    frame.finish()
+}

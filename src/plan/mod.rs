@@ -1,0 +1,317 @@
+//! The plan: which units a scene needs, at which widths, and why the others are left out.
+//!
+//! A plan is made from the scene alone, in `f64`, before anything is loaded; making it may fail,
+//! running it cannot. A pruned and a full machine give the same frame.
+
+pub mod geometry;
+pub mod ranges;
+pub mod units;
+
+use glam::DVec3;
+
+use crate::scene::{Deformation, Kernel, KernelShape, Outside, Scene, Screen, StepperMode, Surface, Terrain, WordSize};
+use crate::word::{Class, Fixed, Register};
+use geometry::Geometry;
+use ranges::WalkPlan;
+
+pub use units::UnitPlan;
+
+/// Why a scene cannot be planned.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanError {
+    /// A register would not hold what the scene puts into it.
+    #[error("{field}: {reason}; {remedy}")]
+    Range {
+        /// Field of the scene.
+        field: &'static str,
+        /// What is wrong.
+        reason: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// The eye is below the surface.
+    #[error(
+        "camera.position: the eye is at height {eye}, the ground under it at {ground}: it would \
+         look from under the ground; raise y above {ground}"
+    )]
+    EyeUnderGround {
+        /// Height of the eye, scene units.
+        eye: f64,
+        /// Height of the surface there.
+        ground: f64,
+    },
+    /// An unknown screen was named.
+    #[error("--screen {asked}: the scene has no such screen; it has {known}")]
+    UnknownScreen {
+        /// What was asked for.
+        asked: String,
+        /// What there is.
+        known: String,
+    },
+    /// An unknown register in `[format]`.
+    #[error("format.{name}: no register or class has this name; the nearest is {nearest}; \
+             classes: view, ground, height, weight, tone")]
+    UnknownRegister {
+        /// What was asked for.
+        name: String,
+        /// What is near.
+        nearest: String,
+    },
+    /// A format that the machine cannot work with.
+    #[error("format.{name}: {reason}")]
+    Format {
+        /// Register.
+        name: String,
+        /// What is wrong and what to do.
+        reason: String,
+    },
+}
+
+/// A word size of the stock world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WordClass {
+    /// Name in reports.
+    pub name: &'static str,
+    /// Bits of a word.
+    pub width: u32,
+    /// Fraction bits of view registers.
+    pub view_point: u32,
+    /// Fraction bits of all others.
+    pub ground_point: u32,
+}
+
+impl WordClass {
+    /// 32 bits.
+    pub const NARROW: Self = Self { name: "narrow", width: 32, view_point: 30, ground_point: 20 };
+    /// 64 bits.
+    pub const WIDE: Self = Self { name: "wide", width: 64, view_point: 38, ground_point: 24 };
+
+    /// Largest magnitude of a ground or height register that the plan allows.
+    pub fn ground_limit(self) -> f64 {
+        // Products in wide words are formed from values of up to 2^24; nothing needs more.
+        libm::exp2(f64::from(self.width - 1 - self.ground_point).min(24.0))
+    }
+
+    /// Format of a register.
+    pub fn fixed(self, register: Register) -> Fixed {
+        let point = match register.class() {
+            Class::View => self.view_point,
+            _ => self.ground_point,
+        };
+        Fixed { width: self.width, point }
+    }
+}
+
+/// What the machine draws.
+#[derive(Clone, Debug)]
+pub enum Ground {
+    /// A height map.
+    Terrain(WalkPlan),
+    /// A plane.
+    Plane(PlanePlan),
+}
+
+/// Projection onto a plane.
+#[derive(Clone, Debug)]
+pub struct PlanePlan {
+    /// Word size.
+    pub words: WordClass,
+    /// Why.
+    pub words_why: String,
+    /// Unit normal.
+    pub normal: DVec3,
+    /// Side of a square, scene units.
+    pub checker: f64,
+    /// In-plane axes of the two coordinates (equation 11).
+    pub axes: [DVec3; 2],
+    /// The eye along them, in squares.
+    pub eye: [f64; 2],
+    /// `F = d − n·r_h`, scene units.
+    pub numerator: f64,
+    /// Quotients lie within ±2^range squares.
+    pub range: u32,
+}
+
+/// Which of the units that can be left out are fitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fitted {
+    /// Divider, with the denominator's accumulator.
+    pub divider: bool,
+    /// Skip pyramid.
+    pub pyramid: bool,
+    /// Kernel ROM, with the hat blend.
+    pub kernel_rom: bool,
+    /// Slope multipliers for cells that are not cubes of the height unit.
+    pub slope_scale: bool,
+    /// Normal and light.
+    pub light: bool,
+    /// Units of another kind of surface, idle.
+    pub idle: bool,
+}
+
+/// A scene compiled for one channel.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The channel's screen.
+    pub screen: Screen,
+    /// Camera geometry.
+    pub geometry: Geometry,
+    /// What is drawn.
+    pub ground: Ground,
+    /// Everything fitted, nothing pruned.
+    pub full: bool,
+    /// What is fitted.
+    pub fitted: Fitted,
+}
+
+impl Plan {
+    /// Plans a scene for one of its screens (the first, if `screen` is `None`).
+    ///
+    /// # Errors
+    /// If a range cannot be proved, the eye is under the ground, or the screen does not exist.
+    pub fn new(scene: &Scene, screen: Option<&str>, full: bool) -> Result<Self, PlanError> {
+        let screen = match screen {
+            None => &scene.screens[0],
+            Some(name) => scene.screens.iter().find(|s| s.name == name).ok_or_else(|| {
+                let known: Vec<_> = scene.screens.iter().map(|s| s.name.as_str()).collect();
+                PlanError::UnknownScreen { asked: name.into(), known: known.join(", ") }
+            })?,
+        }
+        .clone();
+        let geometry = Geometry::new(&scene.camera, &screen);
+        let (ground, needs) = match &scene.surface {
+            Surface::Terrain(terrain) => {
+                let walk =
+                    WalkPlan::new(terrain, &geometry, scene.stepper.fineness, scene.machine.words)?;
+                let needs = terrain_needs(scene, terrain, &walk);
+                (Ground::Terrain(walk), needs)
+            }
+            Surface::Plane(_) => {
+                let plane = PlanePlan::new(scene, &geometry)?;
+                let needs = Fitted {
+                    divider: true,
+                    pyramid: false,
+                    kernel_rom: false,
+                    slope_scale: false,
+                    light: false,
+                    idle: false,
+                };
+                (Ground::Plane(plane), needs)
+            }
+        };
+        let fitted = if full {
+            let terrain = matches!(ground, Ground::Terrain(_));
+            Fitted {
+                divider: true,
+                pyramid: terrain && scene.stepper.mode == StepperMode::Skipping,
+                kernel_rom: terrain,
+                slope_scale: terrain,
+                light: terrain,
+                idle: true,
+            }
+        } else {
+            needs
+        };
+        Ok(Self { screen, geometry, ground, full, fitted })
+    }
+
+    /// The word size of the stock world that the plan chose.
+    pub fn words(&self) -> WordClass {
+        match &self.ground {
+            Ground::Terrain(walk) => walk.words,
+            Ground::Plane(plane) => plane.words,
+        }
+    }
+
+    /// Why that word size.
+    pub fn words_why(&self) -> &str {
+        match &self.ground {
+            Ground::Terrain(walk) => &walk.words_why,
+            Ground::Plane(plane) => &plane.words_why,
+        }
+    }
+}
+
+/// Whether weights other than the hat's can differ from it at this width.
+pub(crate) fn kernel_is_hat(kernel: &Kernel, weight_width: u32) -> bool {
+    match kernel.deformation {
+        Deformation::None => kernel.shape == KernelShape::Hat,
+        Deformation::Blend { weight_shift } => {
+            kernel.shape == KernelShape::Hat || weight_shift >= weight_width - 1
+        }
+        Deformation::Stretch => false,
+    }
+}
+
+fn terrain_needs(scene: &Scene, terrain: &Terrain, walk: &WalkPlan) -> Fitted {
+    let (lowest, highest) = terrain.range();
+    let constant = lowest == highest;
+    let unit = walk.scale.unit;
+    Fitted {
+        divider: !walk.from_eye,
+        pyramid: scene.stepper.mode == StepperMode::Skipping,
+        kernel_rom: !constant && !kernel_is_hat(&scene.kernel, walk.words.width),
+        slope_scale: !constant && (terrain.cell.x != unit || terrain.cell.y != unit),
+        light: scene.light.ambient < 1.0,
+        idle: false,
+    }
+}
+
+impl PlanePlan {
+    fn new(scene: &Scene, geometry: &Geometry) -> Result<Self, PlanError> {
+        let Surface::Plane(plane) = &scene.surface else {
+            unreachable!("called for planes only")
+        };
+        let axes = plane_axes(plane.normal);
+        let eye = axes.map(|axis| axis.dot(geometry.eye) / plane.checker);
+        let farthest = eye[0].abs().max(eye[1].abs());
+        // Positions need the eye and the quotient; products are formed from values below 2^24.
+        let fits = |words: WordClass| {
+            let limit = words.ground_limit();
+            let range = (limit.log2() as u32) - 1;
+            (farthest + libm::exp2(f64::from(range)) <= limit).then_some(range)
+        };
+        let fine = geometry.finest_angle * libm::exp2(f64::from(WordClass::NARROW.view_point))
+            / (f64::from(geometry.columns) + f64::from(geometry.lines));
+        let narrow = if fine < 64.0 { None } else { fits(WordClass::NARROW) };
+        let (words, range, words_why) = match (scene.machine.words, narrow, fits(WordClass::WIDE)) {
+            (WordSize::Auto | WordSize::Narrow, Some(range), _) => {
+                (WordClass::NARROW, range, "positions fit".to_owned())
+            }
+            (WordSize::Auto, None, Some(range)) => {
+                (WordClass::WIDE, range, "32 bits do not hold the eye or the screen".to_owned())
+            }
+            (WordSize::Wide, _, Some(range)) => (WordClass::WIDE, range, "asked for".to_owned()),
+            _ => {
+                return Err(PlanError::Range {
+                    field: "camera.position",
+                    reason: format!("the eye is {farthest:.0} squares from the origin"),
+                    remedy: "move it closer, or use machine.words = \"auto\"",
+                });
+            }
+        };
+        let numerator = plane.distance - plane.normal.dot(geometry.eye);
+        let (normal, checker) = (plane.normal, plane.checker);
+        Ok(Self { words, words_why, normal, checker, axes, eye, numerator, range })
+    }
+}
+
+/// In-plane axes (equation 11): x and z for a horizontal plane; else an axis across the normal
+/// and the third one that completes them.
+pub(crate) fn plane_axes(normal: DVec3) -> [DVec3; 2] {
+    // The upper side, so that a floor and a ceiling have the same squares.
+    let normal = if normal.y < 0.0 { -normal } else { normal };
+    let across = if normal.z.abs() < 0.9 { DVec3::Z } else { DVec3::X };
+    let first = normal.cross(across).normalize();
+    [first, first.cross(normal)]
+}
+
+/// What lies beyond the map, for the height memory.
+pub(crate) fn edge_of(outside: Outside) -> crate::unit::height_memory::Edge {
+    use crate::unit::height_memory::Edge;
+    match outside {
+        Outside::Sky => Edge::Ends,
+        Outside::Clamp => Edge::Clamps,
+        Outside::Wrap => Edge::Wraps,
+    }
+}

@@ -1,0 +1,3 @@
+//! Units
+/// x
+pub struct UnitPlan;

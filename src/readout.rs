@@ -1,0 +1,137 @@
+//! From the wires of a line to the frame: the way back from words to `f64`.
+//!
+//! Both engines and the studies read their wires through here, so equal wires make equal frames.
+
+use glam::DVec3;
+
+use crate::frame::{Buffers, Frame, Hit};
+use crate::plan::{Ground, Plan};
+use crate::unit::Line;
+use crate::word::{Open, Readout};
+
+/// What one pixel's wires say, in scene units.
+#[derive(Clone, Copy, Debug)]
+pub struct PixelReadout {
+    /// λ of `r_p = r_h + λ V`.
+    pub lambda: f64,
+    /// The ground point; y is the surface's height there.
+    pub point: DVec3,
+    /// Unit normal.
+    pub normal: DVec3,
+}
+
+/// Reads pixels of a plan's machine.
+#[derive(Clone, Copy, Debug)]
+pub struct Reader<'a> {
+    plan: &'a Plan,
+}
+
+impl<'a> Reader<'a> {
+    /// A reader for the wires of a plan.
+    pub fn new(plan: &'a Plan) -> Self {
+        Self { plan }
+    }
+
+    /// Pixel `i` of a line that met something; `None` for sky and far.
+    pub fn pixel<W: Open>(&self, line: &Line<W>, i: usize) -> Option<PixelReadout> {
+        if !matches!(line.hit[i], Hit::Surface | Hit::Side) {
+            return None;
+        }
+        let (x, z) = (line.ground_x[i].value(), line.ground_z[i].value());
+        let (point, normal) = match &self.plan.ground {
+            Ground::Terrain(walk) => {
+                let height = walk.scale.to_scene(line.surface[i].value());
+                let point = DVec3::new(x * walk.lengths.x, height, z * walk.lengths.z);
+                let (slope_x, slope_z) = (line.slope_x[i].value(), line.slope_z[i].value());
+                (point, DVec3::new(slope_x, 1.0, slope_z).normalize())
+            }
+            Ground::Plane(plane) => {
+                let foot = plane.normal * (plane.numerator + plane.normal.dot(self.plan.geometry.eye));
+                let [first, second] = plane.axes;
+                let point = foot + (first * x + second * z) * plane.checker;
+                (point, plane.normal)
+            }
+        };
+        let view = self.plan.geometry.view.at(line.number.into(), line.column[i].into());
+        let lambda = (point - self.plan.geometry.eye).dot(view) / view.length_squared();
+        Some(PixelReadout { lambda, point, normal })
+    }
+}
+
+/// A frame under construction, line by line.
+#[derive(Debug)]
+pub struct FrameBuilder<'a> {
+    reader: Reader<'a>,
+    frame: Frame,
+}
+
+impl<'a> FrameBuilder<'a> {
+    /// An empty frame of a plan's size.
+    pub fn new(plan: &'a Plan, lines: usize, buffers: bool, trials: bool) -> Self {
+        let columns = plan.geometry.columns as usize;
+        let pixels = columns * lines;
+        let buffers = buffers.then(|| Buffers {
+            lambda: Vec::with_capacity(pixels),
+            ground_x: Vec::with_capacity(pixels),
+            ground_z: Vec::with_capacity(pixels),
+            height: Vec::with_capacity(pixels),
+            normal: Vec::with_capacity(pixels),
+            steps: Vec::with_capacity(pixels),
+            trials: trials.then(|| Vec::with_capacity(pixels)),
+        });
+        let frame = Frame {
+            columns,
+            lines,
+            color: Vec::with_capacity(pixels),
+            hit: Vec::with_capacity(pixels),
+            buffers,
+        };
+        Self { reader: Reader::new(plan), frame }
+    }
+
+    /// The next line.
+    pub fn push<W: Open>(&mut self, line: &Line<W>) {
+        self.frame.color.extend_from_slice(&line.color);
+        self.frame.hit.extend_from_slice(&line.hit);
+        let Some(buffers) = &mut self.frame.buffers else { return };
+        for i in 0..line.len() {
+            let pixel = self.reader.pixel(line, i).unwrap_or(PixelReadout {
+                lambda: f64::NAN,
+                point: DVec3::NAN,
+                normal: DVec3::NAN,
+            });
+            buffers.lambda.push(pixel.lambda);
+            buffers.ground_x.push(pixel.point.x);
+            buffers.ground_z.push(pixel.point.z);
+            buffers.height.push(pixel.point.y);
+            buffers.normal.push(pixel.normal.to_array());
+            let met = pixel.lambda.is_finite();
+            buffers.steps.push(if met { line.steps[i] } else { 0 });
+            if let Some(trials) = &mut buffers.trials {
+                trials.push(line.work[i].trials);
+            }
+        }
+    }
+
+    /// Another builder's lines after these.
+    pub fn append(&mut self, other: FrameBuilder<'_>) {
+        self.frame.color.extend(other.frame.color);
+        self.frame.hit.extend(other.frame.hit);
+        if let (Some(to), Some(from)) = (&mut self.frame.buffers, other.frame.buffers) {
+            to.lambda.extend(from.lambda);
+            to.ground_x.extend(from.ground_x);
+            to.ground_z.extend(from.ground_z);
+            to.height.extend(from.height);
+            to.normal.extend(from.normal);
+            to.steps.extend(from.steps);
+            if let (Some(to), Some(from)) = (&mut to.trials, from.trials) {
+                to.extend(from);
+            }
+        }
+    }
+
+    /// The frame.
+    pub fn finish(self) -> Frame {
+        self.frame
+    }
+}

@@ -1,0 +1,49 @@
+//! Finite functions and their derivatives in `f64`, for the kernel ROM (equations 12 to 17).
+
+use crate::scene::KernelShape;
+
+/// f(t) of a basic shape; even, 1 at 0, 0 from |t| = 1 on.
+pub fn value(shape: KernelShape, t: f64) -> f64 {
+    let t = t.abs();
+    if t >= 1.0 {
+        return 0.0;
+    }
+    match shape {
+        KernelShape::Cosine => (libm::cos(std::f64::consts::PI * t) + 1.0) / 2.0,
+        KernelShape::Parabola if t < 0.5 => 1.0 - 2.0 * t * t,
+        KernelShape::Parabola => 2.0 * (1.0 - t) * (1.0 - t),
+        KernelShape::Exponential if t < 0.5 => libm::exp2(-4.0 * t * t),
+        KernelShape::Exponential => 1.0 - libm::exp2(-(2.0 - 2.0 * t) * (2.0 - 2.0 * t)),
+        KernelShape::Hat => 1.0 - t,
+    }
+}
+
+/// f′(t) of a basic shape; odd.
+pub fn slope(shape: KernelShape, t: f64) -> f64 {
+    use std::f64::consts::{LN_2, PI};
+    let (sign, t) = (if t < 0.0 { -1.0 } else { 1.0 }, t.abs());
+    if t > 1.0 {
+        return 0.0;
+    }
+    sign * match shape {
+        KernelShape::Cosine => -PI / 2.0 * libm::sin(PI * t),
+        KernelShape::Parabola if t < 0.5 => -4.0 * t,
+        KernelShape::Parabola => -4.0 * (1.0 - t),
+        KernelShape::Exponential if t < 0.5 => -8.0 * LN_2 * t * libm::exp2(-4.0 * t * t),
+        KernelShape::Exponential => {
+            let s = 1.0 - t;
+            -8.0 * LN_2 * s * libm::exp2(-4.0 * s * s)
+        }
+        KernelShape::Hat => -1.0,
+    }
+}
+
+/// Deformation 1: `⅔ f(⅔t)`, support (−3/2, 3/2).
+pub fn stretched(shape: KernelShape, t: f64) -> f64 {
+    2.0 / 3.0 * value(shape, 2.0 / 3.0 * t)
+}
+
+/// Its derivative.
+pub fn stretched_slope(shape: KernelShape, t: f64) -> f64 {
+    4.0 / 9.0 * slope(shape, 2.0 / 3.0 * t)
+}

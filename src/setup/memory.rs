@@ -1,0 +1,147 @@
+//! What is loaded once per map: heights, pyramid, kernel ROM, reciprocal-square-root table.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::kernel;
+use crate::plan::ranges::WalkPlan;
+use crate::plan::{Ground, Plan, edge_of, kernel_is_hat};
+use crate::scene::{Deformation, Kernel, KernelShape, Scene, Surface, Terrain};
+use crate::unit::height_memory::HeightMemory;
+use crate::unit::interpolator::Form;
+use crate::unit::kernel_rom::KernelRom;
+use crate::unit::pyramid::Pyramid;
+use crate::word::{Load, Open, Register, Word, World};
+
+/// Entries per unit of the reciprocal-square-root table, as a power of two.
+const RSQRT_LOG2: u32 = 10;
+
+/// The machine's memories for one height map.
+#[derive(Clone, Debug)]
+pub struct Memory<W: World> {
+    /// Nodes.
+    pub heights: Arc<HeightMemory<W::Height>>,
+    /// Bounds for skipping.
+    pub pyramid: Option<Arc<Pyramid<W::Height>>>,
+    /// Kernel tables.
+    pub rom: Option<Arc<KernelRom<W::Weight>>>,
+    /// How nodes are weighted.
+    pub form: Form,
+    /// Reciprocal square roots of t / 2^rsqrt_log2, for arguments in `[0, 4]`.
+    pub rsqrt: Arc<Vec<W::Tone>>,
+    /// Entries per unit of `rsqrt`, as a power of two.
+    pub rsqrt_log2: u32,
+}
+
+/// Loads a value that the plan has proved to fit, or says which register it overflows.
+pub(super) fn load<T: Load>(
+    value: f64,
+    register: Register,
+    format: T::Format,
+) -> Result<T, super::SetupError> {
+    T::load(value, format).ok_or(super::SetupError::Register { register, value })
+}
+
+impl<W: Open> Memory<W> {
+    /// Loads the memories of a scene; `None` where it has no height map.
+    ///
+    /// # Errors
+    /// If a height or weight does not fit its register: only in a sweep.
+    pub fn new(world: &W, scene: &Scene, plan: &Plan) -> Result<Option<Self>, super::SetupError> {
+        let (Surface::Terrain(terrain), Ground::Terrain(walk)) = (&scene.surface, &plan.ground)
+        else {
+            return Ok(None);
+        };
+        let heights = heights(world, terrain, walk)?;
+        let form = form(&scene.kernel, plan, heights.nodes());
+        let radius = i32::from(form == Form::Stretch);
+        let pyramid = plan.fitted.pyramid.then(|| Arc::new(Pyramid::new(&heights, radius)));
+        let rom = match form {
+            Form::Hat => None,
+            _ => Some(Arc::new(kernel_rom(world, &scene.kernel)?)),
+        };
+        let tone = world.tone(Register::Shade);
+        let rsqrt = (0..=4_u32 << RSQRT_LOG2)
+            .map(|t| {
+                // Squares are at least 1/4; below, the table repeats that entry.
+                let t = f64::from(t.max(1 << (RSQRT_LOG2 - 2)));
+                let square = t / f64::from(1_u32 << RSQRT_LOG2);
+                load(1.0 / libm::sqrt(square), Register::Shade, tone)
+            })
+            .collect::<Result<_, _>>()?;
+        Ok(Some(Self {
+            heights: Arc::new(heights),
+            pyramid,
+            rom,
+            form,
+            rsqrt: Arc::new(rsqrt),
+            rsqrt_log2: RSQRT_LOG2,
+        }))
+    }
+}
+
+fn heights<W: Open>(
+    world: &W,
+    terrain: &Terrain,
+    walk: &WalkPlan,
+) -> Result<HeightMemory<W::Height>, super::SetupError> {
+    let format = world.height(Register::Node);
+    let nodes = terrain
+        .map
+        .samples()
+        .par_iter()
+        .map(|&sample| {
+            let height = walk.scale.to_register(terrain.height(sample));
+            load(height, Register::Node, format)
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    let (columns, rows) = (terrain.map.columns(), terrain.map.rows());
+    Ok(HeightMemory::new(nodes, columns, rows, edge_of(terrain.outside)))
+}
+
+/// The smallest form that gives the kernel's bits; the full machine's form where all is fitted.
+fn form<T: Word>(kernel: &Kernel, plan: &Plan, nodes: &[T]) -> Form {
+    let constant = nodes.iter().all(|node| *node == nodes[0]);
+    match kernel.deformation {
+        // Every form is exact on a constant map; the hat's needs no ROM.
+        _ if constant && !plan.full => Form::Hat,
+        Deformation::Stretch => Form::Stretch,
+        // The general datapath: a shift by zero is the kernel, one by the width the hat.
+        Deformation::None if plan.full => {
+            Form::Blend(if kernel.shape == KernelShape::Hat { 63 } else { 0 })
+        }
+        Deformation::Blend { weight_shift } if plan.full => Form::Blend(weight_shift.min(63)),
+        _ if kernel_is_hat(kernel, plan.words().width) => Form::Hat,
+        Deformation::None => Form::Plain,
+        Deformation::Blend { weight_shift } => Form::Blend(weight_shift),
+    }
+}
+
+fn kernel_rom<W: Open>(
+    world: &W,
+    kernel: &Kernel,
+) -> Result<KernelRom<W::Weight>, super::SetupError> {
+    let shape = kernel.shape;
+    let log2 = kernel.table.ilog2();
+    let stretched = kernel.deformation == Deformation::Stretch;
+    let format = world.weight(Register::Weight);
+    let table = |f: &dyn Fn(f64) -> f64, register| {
+        (0..=kernel.table)
+            .map(|entry| load(f(f64::from(entry) / f64::from(kernel.table)), register, format))
+            .collect::<Result<Vec<_>, _>>()
+    };
+    let (weights, slopes) = if stretched {
+        // The entry's argument is t + 1/2, t from the nearest node; the node before is at t + 1.
+        (
+            table(&|t| kernel::stretched(shape, t + 0.5), Register::Weight)?,
+            table(&|t| kernel::stretched_slope(shape, t + 0.5), Register::WeightSlope)?,
+        )
+    } else {
+        (
+            table(&|t| kernel::value(shape, t), Register::Weight)?,
+            table(&|t| kernel::slope(shape, t), Register::WeightSlope)?,
+        )
+    };
+    Ok(KernelRom::new(log2, weights, slopes))
+}

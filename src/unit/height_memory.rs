@@ -1,0 +1,94 @@
+//! The height memory: nodes of the map, and what lies beyond its edge.
+//!
+//! *In hardware*: four banks by `(i & 1, j & 1)`, so that any 2×2 block is read in one cycle and a
+//! 3×3 block in four. *Never*: reads outside the map; addresses are clamped, or wrapped by
+//! subtracting the size.
+
+/// What the address unit does beyond the edge nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edge {
+    /// The map ends there.
+    Ends,
+    /// The edge nodes go on.
+    Clamps,
+    /// The map repeats.
+    Wraps,
+}
+
+/// Nodes of the map, row by row.
+#[derive(Clone, Debug)]
+pub struct HeightMemory<T> {
+    nodes: Vec<T>,
+    columns: i32,
+    rows: i32,
+    edge: Edge,
+}
+
+impl<T: Copy> HeightMemory<T> {
+    /// A memory of `columns · rows` nodes.
+    ///
+    /// # Panics
+    /// If the number of nodes differs or is zero: set-up has checked it.
+    pub fn new(nodes: Vec<T>, columns: usize, rows: usize, edge: Edge) -> Self {
+        assert!(!nodes.is_empty() && nodes.len() == columns * rows);
+        Self { nodes, columns: columns as i32, rows: rows as i32, edge }
+    }
+
+    /// Nodes in x.
+    pub fn columns(&self) -> i32 {
+        self.columns
+    }
+
+    /// Nodes in z.
+    pub fn rows(&self) -> i32 {
+        self.rows
+    }
+
+    /// What lies beyond.
+    pub fn edge(&self) -> Edge {
+        self.edge
+    }
+
+    /// All nodes, row by row.
+    pub fn nodes(&self) -> &[T] {
+        &self.nodes
+    }
+
+    /// Whether the map has a surface in the cell whose corner is node (i, j).
+    #[inline(always)]
+    pub fn contains(&self, i: i32, j: i32) -> bool {
+        match self.edge {
+            // One unsigned comparison per axis.
+            Edge::Ends => {
+                ((i as u32) < (self.columns - 1) as u32) & ((j as u32) < (self.rows - 1) as u32)
+            }
+            Edge::Clamps | Edge::Wraps => true,
+        }
+    }
+
+    /// Column address of index i.
+    #[inline(always)]
+    pub fn column(&self, i: i32) -> usize {
+        address(i, self.columns, self.edge)
+    }
+
+    /// Row address of index j.
+    #[inline(always)]
+    pub fn row(&self, j: i32) -> usize {
+        address(j, self.rows, self.edge)
+    }
+
+    /// The node at a column and row address.
+    #[inline(always)]
+    pub fn at(&self, column: usize, row: usize) -> T {
+        self.nodes[row * self.columns as usize + column]
+    }
+}
+
+#[inline(always)]
+fn address(index: i32, size: i32, edge: Edge) -> usize {
+    (match edge {
+        Edge::Ends | Edge::Clamps => index.clamp(0, size - 1),
+        Edge::Wraps => index.rem_euclid(size),
+    }) as usize
+}

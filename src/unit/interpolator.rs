@@ -1,0 +1,285 @@
+//! The interpolator: surface height and slopes at a place on the ground, by finite functions.
+//!
+//! *In hardware*: the kernel ROM, the hat blend (a subtraction, a shift, an addition) and
+//! shift-and-add multipliers with one rounding each.
+//!
+//! - 2×2 nodes: `A = h2 + (h1−h2)·w(zd)`, `B = h4 + (h3−h4)·w(zd)`, `y = B + (A−B)·w(xd)`:
+//!   three multiplications (equation 14 of docs/mathematics.md).
+//! - 3×3 nodes: `h0 + (h₋−h0)·w₋ + (h₊−h0)·w₊` along z for three columns, then along x; the
+//!   centre weight is implicit (equation 17).
+//!
+//! Each lerp rounds its exact product once, to nearest, so it stays within its nodes; constant
+//! maps are exact under every kernel, and tilted ones under the hat.
+//!
+//! | wire in | wire out |
+//! |---|---|
+//! | `ground_x`, `ground_z`, `hit` | `surface`, `slope_x`, `slope_z` |
+//!
+//! *Cycles*: one result per cycle over 2×2 nodes, four cycles over 3×3 (memory banks).
+//! *Never*: truncates a partial product.
+
+use std::sync::Arc;
+
+use super::Line;
+use super::height_memory::HeightMemory;
+use super::kernel_rom::KernelRom;
+use super::stepper::SurfaceUnit;
+use crate::frame::Hit;
+use crate::word::{Cell, Interpolating, Multiply, Register, Rescale, Site, Word, World};
+
+/// Which nodes are read, and how the weight is made of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// 2×2 nodes, the weight is the kernel's.
+    Plain,
+    /// 2×2 nodes, the weight is the hat plus the difference to the kernel shifted right.
+    Blend(u32),
+    /// 2×2 nodes, the weight is the hat's: no ROM is fitted.
+    Hat,
+    /// 3×3 nodes around the nearest one.
+    Stretch,
+}
+
+/// The interpolator's memories and registers.
+#[derive(Clone, Debug)]
+pub struct Interpolator<W: World> {
+    /// The map.
+    pub heights: Arc<HeightMemory<W::Height>>,
+    /// The kernel; unread, and absent where not fitted, when the form is the hat.
+    pub rom: Option<Arc<KernelRom<W::Weight>>>,
+    /// Which nodes and weights.
+    pub form: Form,
+    /// The weight one.
+    pub one: W::Weight,
+    /// Height unit over cell size, x and z: absent when both are one.
+    pub slope_scale: Option<[W::Weight; 2]>,
+    /// Format of weights.
+    pub weight_format: <W::Weight as Word>::Format,
+}
+
+/// Everything the interpolator computes at one place.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<W: World> {
+    /// Surface height.
+    pub surface: W::Height,
+    /// Negated slope against x.
+    pub slope_x: W::Height,
+    /// Negated slope against z.
+    pub slope_z: W::Height,
+}
+
+/// Weight and slope of the kernel along one axis of the 2×2 form.
+#[derive(Clone, Copy, Debug)]
+pub struct Arm<T> {
+    /// Weight of the node before the place.
+    pub weight: T,
+    /// Derivative of the weight.
+    pub slope: T,
+}
+
+impl<W: Interpolating> Interpolator<W> {
+    /// Weight of the lower node of an axis at a fraction within the cell.
+    #[inline(always)]
+    pub fn weight(&self, fraction: W::Ground, site: Site) -> W::Weight {
+        let site = site.at(Register::Weight);
+        let hat = || self.one - fraction.rescale(0, self.weight_format, site);
+        match (&self.form, &self.rom) {
+            (Form::Blend(shift), Some(rom)) => {
+                let hat = hat();
+                hat + (rom.weight(rom.entry(fraction)) - hat).shift_toward_zero(*shift)
+            }
+            (Form::Plain, Some(rom)) => rom.weight(rom.entry(fraction)),
+            _ => hat(),
+        }
+    }
+
+    /// Weight and slope of the lower node of an axis.
+    #[inline(always)]
+    pub fn arm(&self, fraction: W::Ground, site: Site) -> Arm<W::Weight> {
+        let weight = self.weight(fraction, site);
+        let slope = match (&self.form, &self.rom) {
+            (Form::Blend(shift), Some(rom)) => {
+                // The hat falls with slope one.
+                (rom.slope(rom.entry(fraction)) + self.one).shift_toward_zero(*shift) - self.one
+            }
+            (Form::Plain, Some(rom)) => rom.slope(rom.entry(fraction)),
+            _ => -self.one,
+        };
+        Arm { weight, slope }
+    }
+
+    /// Nodes h1 (i, j), h2 (i, j+1), h3 (i+1, j), h4 (i+1, j+1) around a place.
+    #[inline(always)]
+    pub fn nodes(&self, x: W::Ground, z: W::Ground) -> [W::Height; 4] {
+        let (i, j) = (x.cell(), z.cell());
+        let heights = &*self.heights;
+        let (west, east) = (heights.column(i), heights.column(i + 1));
+        let (north, south) = (heights.row(j), heights.row(j + 1));
+        [
+            heights.at(west, north),
+            heights.at(west, south),
+            heights.at(east, north),
+            heights.at(east, south),
+        ]
+    }
+
+    /// Surface height and slopes at a place (equations 14 to 18).
+    #[inline(always)]
+    pub fn sample(&self, x: W::Ground, z: W::Ground, site: Site) -> Sample<W> {
+        if self.form == Form::Stretch {
+            return self.stretched(x, z, site);
+        }
+        let [h1, h2, h3, h4] = self.nodes(x, z);
+        let arm_x = self.arm(x.fraction(), site.step(site.operation ^ 1));
+        let arm_z = self.arm(z.fraction(), site);
+        let west = lerp(h2, h1, arm_z.weight, site);
+        let east = lerp(h4, h3, arm_z.weight, site.step(site.operation ^ 1));
+        let north = lerp(h3, h1, arm_x.weight, site.step(site.operation ^ 2));
+        let south = lerp(h4, h2, arm_x.weight, site.step(site.operation ^ 3));
+        Sample {
+            surface: lerp(east, west, arm_x.weight, site.step(site.operation ^ 4)),
+            slope_x: (east - west).multiply(arm_x.slope, site.at(Register::SlopeX)),
+            slope_z: (south - north).multiply(arm_z.slope, site.at(Register::SlopeZ)),
+        }
+    }
+
+    fn stretched(&self, x: W::Ground, z: W::Ground, site: Site) -> Sample<W> {
+        let stencil = self.stencil(x, z);
+        let (wx, wz) = (stencil.weights_x, stencil.weights_z);
+        let mut along_z = stencil.nodes[1];
+        let mut slope_along_z = stencil.nodes[1];
+        for (k, column) in stencil.nodes.iter().enumerate() {
+            let site = site.step(site.operation ^ k as u32);
+            along_z[k] = three(*column, wz.weights, site.at(Register::Surface));
+            slope_along_z[k] = slope(*column, wz.slopes, site.at(Register::SlopeZ));
+        }
+        let site = site.step(site.operation ^ 4);
+        Sample {
+            surface: three(along_z, wx.weights, site.at(Register::Surface)),
+            slope_x: slope(along_z, wx.slopes, site.at(Register::SlopeX)),
+            slope_z: three(slope_along_z, wx.weights, site.at(Register::SlopeZ)),
+        }
+    }
+
+    /// The 3×3 nodes around a place, by column, and their weights.
+    #[inline(always)]
+    pub fn stencil(&self, x: W::Ground, z: W::Ground) -> Stencil<W> {
+        let heights = &*self.heights;
+        let (i, j) = (x.nearest(), z.nearest());
+        let rows = [heights.row(j - 1), heights.row(j), heights.row(j + 1)];
+        let nodes = [i - 1, i, i + 1].map(|i| {
+            let column = heights.column(i);
+            rows.map(|row| heights.at(column, row))
+        });
+        Stencil {
+            nodes,
+            weights_x: self.outer(x.fraction_from_midpoint()),
+            weights_z: self.outer(z.fraction_from_midpoint()),
+        }
+    }
+
+    /// Weights and slopes of the nodes before and after the nearest one.
+    #[inline(always)]
+    fn outer(&self, from_midpoint: W::Ground) -> Outer<W::Weight> {
+        match &self.rom {
+            Some(rom) => {
+                let before = rom.entry(from_midpoint);
+                let after = rom.mirrored(before);
+                Outer {
+                    weights: [rom.weight(before), rom.weight(after)],
+                    slopes: [rom.slope(before), -rom.slope(after)],
+                }
+            }
+            // Set-up fits a ROM with every stretched kernel.
+            None => Outer { weights: [self.one; 2], slopes: [self.one; 2] },
+        }
+    }
+
+    /// Drives `surface`, `slope_x` and `slope_z` where the ray met the surface.
+    pub fn run(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            if line.hit[i] == Hit::Surface || line.hit[i] == Hit::Side {
+                let site = Site::pixel(line.number, line.column[i]).step(AT_THE_HIT);
+                let sample = self.sample(line.ground_x[i], line.ground_z[i], site);
+                line.surface[i] = sample.surface;
+                (line.slope_x[i], line.slope_z[i]) = match self.slope_scale {
+                    None => (sample.slope_x, sample.slope_z),
+                    Some([x, z]) => (
+                        sample.slope_x.multiply(x, site.at(Register::SlopeX).step(AT_THE_HIT ^ 8)),
+                        sample.slope_z.multiply(z, site.at(Register::SlopeZ).step(AT_THE_HIT ^ 8)),
+                    ),
+                };
+            }
+        }
+    }
+}
+
+/// The operation number of the interpolation at the hit, apart from all samples of the ray.
+const AT_THE_HIT: u32 = 1 << 31;
+
+/// Nodes and weights of the 3×3 form.
+#[derive(Clone, Copy, Debug)]
+pub struct Stencil<W: World> {
+    /// Nodes by column from west to east, each from north to south.
+    pub nodes: [[W::Height; 3]; 3],
+    /// Weights along x.
+    pub weights_x: Outer<W::Weight>,
+    /// Weights along z.
+    pub weights_z: Outer<W::Weight>,
+}
+
+/// Weights and slopes of the outer nodes; those of the centre are implicit.
+#[derive(Clone, Copy, Debug)]
+pub struct Outer<T> {
+    /// Before and after.
+    pub weights: [T; 2],
+    /// Derivatives.
+    pub slopes: [T; 2],
+}
+
+/// `from + (to − from)·weight`, one rounding.
+#[inline(always)]
+fn lerp<H: Multiply<T>, T: Word>(from: H, to: H, weight: T, site: Site) -> H {
+    from + (to - from).multiply(weight, site.at(Register::Surface))
+}
+
+/// `h0 + (h₋ − h0)·w₋ + (h₊ − h0)·w₊`, one rounding.
+#[inline(always)]
+fn three<H: Multiply<T>, T: Word>(nodes: [H; 3], weights: [T; 2], site: Site) -> H {
+    let [before, centre, after] = nodes;
+    centre + (before - centre).multiply_two(weights[0], after - centre, weights[1], site)
+}
+
+/// The negated derivative of [`three`].
+#[inline(always)]
+fn slope<H: Multiply<T>, T: Word>(nodes: [H; 3], slopes: [T; 2], site: Site) -> H {
+    let [before, centre, after] = nodes;
+    (centre - before).multiply_two(slopes[0], centre - after, slopes[1], site)
+}
+
+impl<W: Interpolating> SurfaceUnit<W> for Interpolator<W> {
+    #[inline(always)]
+    fn contains(&self, x: W::Ground, z: W::Ground) -> bool {
+        self.heights.contains(x.cell(), z.cell())
+    }
+
+    #[inline(always)]
+    fn height(&self, x: W::Ground, z: W::Ground, site: Site) -> W::Height {
+        if self.form == Form::Stretch {
+            let stencil = self.stencil(x, z);
+            let mut along_z = stencil.nodes[1];
+            for (k, column) in stencil.nodes.iter().enumerate() {
+                let site = site.step(site.operation ^ k as u32).at(Register::Surface);
+                along_z[k] = three(*column, stencil.weights_z.weights, site);
+            }
+            let site = site.step(site.operation ^ 4).at(Register::Surface);
+            return three(along_z, stencil.weights_x.weights, site);
+        }
+        let [h1, h2, h3, h4] = self.nodes(x, z);
+        let weight_z = self.weight(z.fraction(), site);
+        let weight_x = self.weight(x.fraction(), site.step(site.operation ^ 1));
+        let west = lerp(h2, h1, weight_z, site);
+        let east = lerp(h4, h3, weight_z, site.step(site.operation ^ 1));
+        lerp(east, west, weight_x, site.step(site.operation ^ 4))
+    }
+}

@@ -1,0 +1,24 @@
+//! The hardware units, one file each. A unit works on the wires of one scan line; it cannot name
+//! a concrete number world, and its trait bounds say what arithmetic it is made of.
+//!
+//! ```text
+//! projector -> divider -> stepper -> interpolator -> shader -> frame
+//!                            ^  |
+//!                            |  v
+//!                  pyramid  heights + kernel ROM
+//! ```
+//!
+//! Floating point does not occur here: floats belong to set-up, oracle and studies.
+#![deny(clippy::float_arithmetic)]
+
+pub mod divider;
+pub mod height_memory;
+pub mod interpolator;
+pub mod kernel_rom;
+pub mod line;
+pub mod projector;
+pub mod pyramid;
+pub mod shader;
+pub mod stepper;
+
+pub use line::Line;

@@ -1,0 +1,254 @@
+//! The shader: the colour of a pixel.
+//!
+//! *In hardware*, on terrain: the normal (slopes and one) is shifted until its largest component
+//! is below one, squared and summed, normalised by a reciprocal-square-root table, and multiplied
+//! with the light; the height's place on the ramp mixes two colours; the product is rounded into
+//! a byte (equations 23 to 26 of docs/mathematics.md). On a plane: the parity of the square,
+//! faded to the mean of the two colours where squares become smaller than pixels (equation 27).
+//!
+//! | wire in | wire out |
+//! |---|---|
+//! | `hit`, `surface`, `slope_x`, `slope_z` (terrain) | `color` |
+//! | `entry`, `ground_x`, `ground_z`, `denominator` (plane) | `hit`, `color` |
+//!
+//! *Cycles*: one pixel per cycle. *Never*: divides.
+
+use std::sync::Arc;
+
+use super::Line;
+use super::line::Entry;
+use crate::frame::Hit;
+use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Word, World};
+
+/// Colours of pixels that meet no lit surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Flat {
+    /// Nothing is met.
+    pub sky: [u8; 3],
+    /// Out of range.
+    pub far: [u8; 3],
+    /// The side of the map.
+    pub side: [u8; 3],
+}
+
+/// The shader of height maps.
+#[derive(Clone, Debug)]
+pub struct TerrainShader<W: World> {
+    /// Constant colours.
+    pub flat: Flat,
+    /// Light; absent when the ambient share is all there is.
+    pub light: Option<Light<W>>,
+    /// Colour over height.
+    pub ramp: Ramp<W>,
+}
+
+/// Registers of the lighting.
+#[derive(Clone, Debug)]
+pub struct Light<W: World> {
+    /// Direction towards the light in the frame of slopes, times the diffuse share.
+    pub toward: [W::Tone; 3],
+    /// The ambient share.
+    pub ambient: W::Tone,
+    /// One.
+    pub one: W::Tone,
+    /// Reciprocal square roots of `t / 2^log2`, `0 ≤ t ≤ 4 · 2^log2`.
+    pub rsqrt: Arc<Vec<W::Tone>>,
+    /// Table entries per unit, as a power of two.
+    pub rsqrt_log2: u32,
+    /// Format of the scaled normal.
+    pub normal_format: <W::Tone as Word>::Format,
+    /// Format of its products.
+    pub shade_format: <W::Tone as Word>::Format,
+}
+
+/// Registers of the ramp.
+#[derive(Clone, Debug)]
+pub struct Ramp<W: World> {
+    /// The lowest node.
+    pub lowest: W::Height,
+    /// Heights above the lowest are shifted by this into `[0, 1)`.
+    pub exponent: i32,
+    /// Segments per shifted height.
+    pub gain: W::Tone,
+    /// Start and rise of every segment, by channel.
+    pub segments: Vec<[(W::Tone, W::Tone); 3]>,
+    /// Format of the place on the ramp.
+    pub format: <W::Tone as Word>::Format,
+}
+
+/// Everything the terrain shader computes for one pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Tones<W: World> {
+    /// Place on the ramp, in segments.
+    pub ramp: W::Tone,
+    /// Light.
+    pub shade: Option<W::Tone>,
+    /// Channels before rounding to bytes.
+    pub channels: [W::Tone; 3],
+}
+
+impl<W: Shading> TerrainShader<W> {
+    /// Drives `color` of one line.
+    pub fn run(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            line.color[i] = match line.hit[i] {
+                Hit::Sky => self.flat.sky,
+                Hit::Far => self.flat.far,
+                Hit::Side => self.flat.side,
+                Hit::Surface => {
+                    let site = Site::pixel(line.number, line.column[i]);
+                    let tones =
+                        self.tones(line.surface[i], line.slope_x[i], line.slope_z[i], site);
+                    tones.channels.map(byte)
+                }
+            };
+        }
+    }
+
+    /// Ramp, light and channels of a lit pixel.
+    #[inline(always)]
+    pub fn tones(
+        &self,
+        surface: W::Height,
+        slope_x: W::Height,
+        slope_z: W::Height,
+        site: Site,
+    ) -> Tones<W> {
+        let ramp = self.ramp.place(surface, site);
+        let color = self.ramp.color(ramp, site);
+        let shade = self.light.as_ref().map(|light| light.shade(slope_x, slope_z, site));
+        let channels = match shade {
+            None => color,
+            Some(shade) => color.map(|c| c.multiply(shade, site.at(Register::Channel))),
+        };
+        Tones { ramp, shade, channels }
+    }
+}
+
+impl<W: Shading> Light<W> {
+    /// Ambient plus diffuse light (equations 23 to 25).
+    #[inline(always)]
+    pub fn shade(&self, slope_x: W::Height, slope_z: W::Height, site: Site) -> W::Tone {
+        let site = site.at(Register::Normal);
+        // Slopes below one share the exponent of the vertical component, which is one.
+        let leading = slope_x.leading_one().max(slope_z.leading_one()).max(0);
+        let exponent = -(leading + 1);
+        let x = slope_x.rescale(exponent, self.normal_format, site);
+        let z = slope_z.rescale(exponent, self.normal_format, site.step(1));
+        let y = self.one.shift_floor((leading + 1) as u32);
+        let square = x.multiply_two(x, z, z, site.step(4)) + y.multiply(y, site.step(5));
+        let entry = square.entry(self.rsqrt_log2).min(self.rsqrt.len() - 1);
+        let [light_x, light_y, light_z] = self.toward;
+        let site = site.at(Register::Shade);
+        let dot = x.multiply_two(light_x, z, light_z, site) + y.multiply(light_y, site.step(1));
+        if dot > W::Tone::zero(self.shade_format) {
+            let shade = self.ambient + dot.multiply(self.rsqrt[entry], site.step(2));
+            // The table's rounding may lift full light above one by a bit.
+            if shade > self.one { self.one } else { shade }
+        } else {
+            self.ambient
+        }
+    }
+}
+
+impl<W: Shading> Ramp<W> {
+    /// Place on the ramp in segments (equation 26).
+    #[inline(always)]
+    pub fn place(&self, surface: W::Height, site: Site) -> W::Tone {
+        let site = site.at(Register::Ramp);
+        let height: W::Tone = (surface - self.lowest).rescale(self.exponent, self.format, site);
+        height.multiply(self.gain, site.step(1))
+    }
+
+    /// The colour there.
+    #[inline(always)]
+    pub fn color(&self, place: W::Tone, site: Site) -> [W::Tone; 3] {
+        let last = self.segments.len() as i32 - 1;
+        let segment = place.cell().clamp(0, last);
+        // The end of the ramp is the end of its last segment.
+        let inside = if place.cell() > last { None } else { Some(place.fraction()) };
+        let site = site.at(Register::Channel).step(8);
+        self.segments[segment as usize].map(|(start, rise)| match inside {
+            Some(fraction) => start + rise.multiply(fraction, site),
+            None => start + rise,
+        })
+    }
+}
+
+/// The nearest byte.
+#[inline(always)]
+fn byte<T: Cell>(channel: T) -> u8 {
+    channel.nearest().clamp(0, 255) as u8
+}
+
+/// The shader of checkered planes.
+#[derive(Clone, Debug)]
+pub struct PlaneShader<W: World> {
+    /// Constant colours.
+    pub flat: Flat,
+    /// Mean of the two colours.
+    pub mean: [W::Tone; 3],
+    /// Half their difference.
+    pub swing: [W::Tone; 3],
+    /// Exponent and gain that turn the denominator into contrast plus one.
+    pub contrast_exponent: i32,
+    /// See `contrast_exponent`.
+    pub contrast_gain: W::Tone,
+    /// One.
+    pub one: W::Tone,
+    /// The denominator from which on contrast is full: larger ones are not scaled. Absent where no
+    /// pixel of the screen reaches it.
+    pub full_from: Option<W::View>,
+    /// Format of the contrast.
+    pub format: <W::Tone as Word>::Format,
+}
+
+impl<W: Shading> PlaneShader<W> {
+    /// Drives `hit` and `color` of one line.
+    pub fn run(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            (line.hit[i], line.color[i]) = match line.entry[i] {
+                Entry::Sky => (Hit::Sky, self.flat.sky),
+                Entry::Far => (Hit::Far, self.flat.far),
+                Entry::Met => {
+                    let site = Site::pixel(line.number, line.column[i]);
+                    let contrast = self.contrast(line.denominator[i], site);
+                    let odd = (line.ground_x[i].cell() ^ line.ground_z[i].cell()) & 1 == 1;
+                    (Hit::Surface, self.color(contrast, odd, site))
+                }
+            };
+        }
+    }
+
+    /// Contrast of the squares: 1 where a pixel covers at most a quarter of a square along the
+    /// view, 0 where it covers a whole one (equation 27).
+    #[inline(always)]
+    pub fn contrast(&self, denominator: W::View, site: Site) -> W::Tone {
+        if self.full_from.is_some_and(|full| denominator >= full) {
+            return self.one;
+        }
+        let site = site.at(Register::Shade);
+        let scaled: W::Tone = denominator.rescale(self.contrast_exponent, self.format, site);
+        let scaled = scaled.multiply(self.contrast_gain, site.step(1));
+        let contrast = scaled - self.one;
+        if contrast > self.one {
+            self.one
+        } else if contrast > self.one - self.one {
+            contrast
+        } else {
+            self.one - self.one
+        }
+    }
+
+    /// Colour of a square at a contrast.
+    #[inline(always)]
+    fn color(&self, contrast: W::Tone, odd: bool, site: Site) -> [u8; 3] {
+        let site = site.at(Register::Channel);
+        let mut color = [0; 3];
+        for ((out, &mean), &swing) in color.iter_mut().zip(&self.mean).zip(&self.swing) {
+            let swing = swing.multiply(contrast, site);
+            *out = byte(if odd { mean - swing } else { mean + swing });
+        }
+        color
+    }
+}

@@ -1,0 +1,329 @@
+//! The ray stepper: the first sample of a ray under the surface.
+//!
+//! *In hardware*: three position accumulators, `P ← P + ΔP` per step (equation 19 of
+//! docs/mathematics.md), a comparator against the interpolated surface, and for skipping a second
+//! set of adders for `P + J·ΔP` with two comparators against the pyramid's bound.
+//!
+//! The walk starts at the eye, or where the ray enters the slab under the highest node. ΔP is V
+//! shifted right and rounded to nearest so that its largest component lies between 2^−k−1 and 2^−k
+//! cells (equation 20). A sample hits if it is over the map and `y < surface`, strictly; the first
+//! such index is the hit, refined by halvings.
+//!
+//! | wire in | wire out |
+//! |---|---|
+//! | `view_*`, `entry`, `ground_x`, `ground_z` | `hit`, `ground_x`, `ground_z`, `steps`, `work` |
+//!
+//! *Named outcomes*: `Side` when the sample before the hit lies outside the map; `Sky` when the
+//! ray is out of the map and receding, above the highest node and rising, or outside the map,
+//! under its base and falling; `Far` when the last index is reached.
+//! *Never*: wraps a position (proved at set-up for the last index and the largest jump), passes a
+//! sample that might hit.
+
+use std::sync::Arc;
+
+use super::Line;
+use super::line::{Entry, Work};
+use super::pyramid::Pyramid;
+use crate::frame::Hit;
+use crate::word::{Cell, Register, Rescale, Site, Word, World};
+
+/// What the stepper asks of the interpolator.
+pub trait SurfaceUnit<W: World> {
+    /// Whether the surface exists at a place.
+    fn contains(&self, x: W::Ground, z: W::Ground) -> bool;
+    /// Its height there.
+    fn height(&self, x: W::Ground, z: W::Ground, site: Site) -> W::Height;
+}
+
+/// How many halvings refine a hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HalvingRule {
+    /// `bias − e`, e the place of the leading one of the distance to the eye, within `0..=cap`.
+    Footprint {
+        /// Halvings at distance one.
+        bias: i32,
+        /// Most halvings: the step still has bits.
+        cap: u32,
+    },
+    /// Always as many.
+    Fixed(u32),
+}
+
+/// The stepper's registers.
+#[derive(Clone, Debug)]
+pub struct Stepper<W: World> {
+    /// Whether rays start at the eye; else where they enter the slab.
+    pub from_eye: bool,
+    /// The eye, x in cells.
+    pub eye_x: W::Ground,
+    /// The eye, z in cells.
+    pub eye_z: W::Ground,
+    /// The eye, y in height units.
+    pub eye_y: W::Height,
+    /// The highest node.
+    pub top: W::Height,
+    /// Base of the block under the map.
+    pub base: W::Height,
+    /// k: the largest component of a step lies between 2^−k−1 and 2^−k.
+    pub fineness: u32,
+    /// Index of the last sample.
+    pub last: u32,
+    /// Refinement.
+    pub halvings: HalvingRule,
+    /// Bounds for skipping; absent when the stepper is plain.
+    pub pyramid: Option<Arc<Pyramid<W::Height>>>,
+    /// Nodes of the map where it ends at its edge.
+    pub extent: Option<(i32, i32)>,
+    /// Format of x.
+    pub format_x: <W::Ground as Word>::Format,
+    /// Format of z.
+    pub format_z: <W::Ground as Word>::Format,
+    /// Format of y.
+    pub format_y: <W::Height as Word>::Format,
+}
+
+/// A place on the ray, or a step along it.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<W: World> {
+    /// x in cells.
+    pub x: W::Ground,
+    /// y in height units.
+    pub y: W::Height,
+    /// z in cells.
+    pub z: W::Ground,
+}
+
+impl<W: World> Place<W> {
+    #[inline(always)]
+    fn plus(self, step: Self) -> Self {
+        Self { x: self.x + step.x, y: self.y + step.y, z: self.z + step.z }
+    }
+
+    #[inline(always)]
+    fn minus(self, step: Self) -> Self {
+        Self { x: self.x - step.x, y: self.y - step.y, z: self.z - step.z }
+    }
+
+    #[inline(always)]
+    fn halved(self, times: u32) -> Self {
+        Self {
+            x: self.x.shift_floor(times),
+            y: self.y.shift_floor(times),
+            z: self.z.shift_floor(times),
+        }
+    }
+
+    #[inline(always)]
+    fn doubled(self, times: u32) -> Self {
+        Self {
+            x: self.x.shift_left(times),
+            y: self.y.shift_left(times),
+            z: self.z.shift_left(times),
+        }
+    }
+}
+
+/// Directions of a ray, decided once: where it can no longer meet the map.
+#[derive(Clone, Copy, Debug)]
+struct Heading {
+    west: bool,
+    east: bool,
+    north: bool,
+    south: bool,
+    rises: bool,
+    falls: bool,
+}
+
+/// The end of a walk.
+#[derive(Clone, Copy, Debug)]
+pub struct Walk<W: World> {
+    /// Outcome.
+    pub hit: Hit,
+    /// Refined place of a hit; elsewhere the last place reached.
+    pub place: Place<W>,
+    /// Index of the sample that hit, or of the last one.
+    pub index: u32,
+    /// What it took.
+    pub work: Work,
+}
+
+impl<W: World> Stepper<W> {
+    /// Drives `hit`, `ground_x`, `ground_z`, `steps` and `work` of one line.
+    pub fn run(&self, line: &mut Line<W>, surface: &impl SurfaceUnit<W>) {
+        for i in 0..line.len() {
+            let site = Site::pixel(line.number, line.column[i]);
+            let start = match line.entry[i] {
+                _ if self.from_eye => self.eye(),
+                Entry::Met => Place { x: line.ground_x[i], y: self.top, z: line.ground_z[i] },
+                missed => {
+                    line.hit[i] = if missed == Entry::Far { Hit::Far } else { Hit::Sky };
+                    line.steps[i] = 0;
+                    line.work[i] = Work::default();
+                    continue;
+                }
+            };
+            let step = self.step(line.view_x[i], line.view_y[i], line.view_z[i], site);
+            let walk = self.walk(start, step, surface, site);
+            line.hit[i] = walk.hit;
+            line.ground_x[i] = walk.place.x;
+            line.ground_z[i] = walk.place.z;
+            line.steps[i] = walk.index;
+            line.work[i] = walk.work;
+        }
+    }
+
+    /// The eye.
+    #[inline(always)]
+    pub fn eye(&self) -> Place<W> {
+        Place { x: self.eye_x, y: self.eye_y, z: self.eye_z }
+    }
+
+    /// ΔP of a view vector (equation 20).
+    #[inline(always)]
+    pub fn step(&self, x: W::View, y: W::View, z: W::View, site: Site) -> Place<W> {
+        let leading = x.leading_one().max(y.leading_one()).max(z.leading_one());
+        let exponent = -(leading + 1 + self.fineness as i32);
+        Place {
+            x: x.rescale(exponent, self.format_x, site.at(Register::DGroundX)),
+            y: y.rescale(exponent, self.format_y, site.at(Register::DRayY)),
+            z: z.rescale(exponent, self.format_z, site.at(Register::DGroundZ)),
+        }
+    }
+
+    /// Halvings at a place (equation 22).
+    #[inline(always)]
+    pub fn halvings_at(&self, place: Place<W>) -> u32 {
+        match self.halvings {
+            HalvingRule::Fixed(times) => times,
+            HalvingRule::Footprint { bias, cap } => {
+                let away = place.minus(self.eye());
+                let leading =
+                    away.x.leading_one().max(away.y.leading_one()).max(away.z.leading_one());
+                (bias - leading).clamp(0, cap as i32) as u32
+            }
+        }
+    }
+
+    /// Walks one ray to its end.
+    pub fn walk(
+        &self,
+        start: Place<W>,
+        step: Place<W>,
+        surface: &impl SurfaceUnit<W>,
+        site: Site,
+    ) -> Walk<W> {
+        let heading = self.heading(step);
+        let mut work = Work::default();
+        let mut place = start;
+        let mut index = 0;
+        // Rays from the eye start near the ground, those from the slab's top above it.
+        let mut level = 0;
+        loop {
+            if self.is_over(place, heading) {
+                return Walk { hit: Hit::Sky, place, index, work };
+            }
+            if index >= self.last {
+                return Walk { hit: Hit::Far, place, index, work };
+            }
+            let mut run = 1;
+            if let Some(pyramid) = &self.pyramid {
+                let jump = 1 << (level + self.fineness);
+                if jump <= self.last - index {
+                    work.trials += 1;
+                    let ahead = place.plus(step.doubled(level + self.fineness));
+                    let bound = pyramid.bound(level, place.x.cell(), place.z.cell());
+                    if bound.is_none_or(|bound| place.y >= bound && ahead.y >= bound) {
+                        place = ahead;
+                        index += jump;
+                        level = (level + 1).min(pyramid.top());
+                        continue;
+                    }
+                }
+                if level > 0 {
+                    level -= 1;
+                    continue;
+                }
+                // No jump is clear: test the samples of one cell before trying again.
+                run = (1 << self.fineness).min(self.last - index);
+            }
+            let mut streamed = false;
+            for _ in 0..run {
+                place = place.plus(step);
+                index += 1;
+                if !surface.contains(place.x, place.z) {
+                    if self.is_over(place, heading) {
+                        break;
+                    }
+                    continue;
+                }
+                streamed = true;
+                work.samples += 1;
+                let height = surface.height(place.x, place.z, site.step(index << 3));
+                if place.y < height {
+                    work.groups += 1;
+                    return self.refine(place, step, surface, site, index, work);
+                }
+            }
+            work.groups += u32::from(streamed);
+        }
+    }
+
+    /// Halves the step between the last clear place and the hit.
+    fn refine(
+        &self,
+        hit: Place<W>,
+        step: Place<W>,
+        surface: &impl SurfaceUnit<W>,
+        site: Site,
+        index: u32,
+        mut work: Work,
+    ) -> Walk<W> {
+        let times = self.halvings_at(hit);
+        let mut clear = hit.minus(step);
+        for halving in 1..=times {
+            work.halvings += 1;
+            let middle = clear.plus(step.halved(halving));
+            let site = site.step(1 << 30 | halving << 3);
+            let hits = surface.contains(middle.x, middle.z)
+                && middle.y < surface.height(middle.x, middle.z, site);
+            if !hits {
+                clear = middle;
+            }
+        }
+        if surface.contains(clear.x, clear.z) {
+            // The middle of the last interval halves the error for one more addition.
+            let place = clear.plus(step.halved(times + 1));
+            Walk { hit: Hit::Surface, place, index, work }
+        } else {
+            Walk { hit: Hit::Side, place: clear.plus(step.halved(times)), index, work }
+        }
+    }
+
+    #[inline(always)]
+    fn heading(&self, step: Place<W>) -> Heading {
+        let (ground, height) = (step.x - step.x, step.y - step.y);
+        Heading {
+            west: step.x <= ground,
+            east: step.x >= ground,
+            north: step.z <= ground,
+            south: step.z >= ground,
+            rises: step.y >= height,
+            falls: step.y <= height,
+        }
+    }
+
+    /// Whether the ray can no longer meet the surface.
+    #[inline(always)]
+    fn is_over(&self, place: Place<W>, heading: Heading) -> bool {
+        if heading.rises && place.y >= self.top {
+            return true;
+        }
+        let Some((columns, rows)) = self.extent else { return false };
+        let (i, j) = (place.x.cell(), place.z.cell());
+        (heading.west && i < 0)
+            || (heading.east && i >= columns - 1)
+            || (heading.north && j < 0)
+            || (heading.south && j >= rows - 1)
+            || (heading.falls && place.y < self.base)
+    }
+}

@@ -1,0 +1,28 @@
+//! The non-restoring divider array, on integers: the datapath of `unit::divider`.
+
+/// Floor of `numerator · 2^shift / denominator` where it lies in `-2^(bits-1) .. 2^(bits-1)`.
+///
+/// The numerator is biased by `denominator · 2^(bits-1)`, so that quotient bits are unsigned and
+/// the range check is one comparison: the biased numerator must lie in
+/// `0 .. denominator · 2^bits`. Then each stage shifts one numerator bit into the partial
+/// remainder and adds or subtracts the denominator by the remainder's sign; the quotient bit is
+/// one where the new remainder is not negative.
+///
+/// `denominator` is positive; magnitudes are such that `denominator · 2^bits` and
+/// `|numerator| · 2^shift` stay below 2^126.
+pub fn non_restoring(numerator: i128, denominator: i128, shift: u32, bits: u32) -> Option<i128> {
+    debug_assert!(denominator > 0);
+    let biased = (numerator << shift) + (denominator << (bits - 1));
+    if biased < 0 || biased >= denominator << bits {
+        return None;
+    }
+    let mut remainder = biased >> bits;
+    let mut quotient = 0_i128;
+    for stage in (0..bits).rev() {
+        // Below the leading stages the remainder holds the numerator's next bit in its last place.
+        let shifted = (remainder << 1) | ((biased >> stage) & 1);
+        remainder = if remainder < 0 { shifted + denominator } else { shifted - denominator };
+        quotient = (quotient << 1) | i128::from(remainder >= 0);
+    }
+    Some(quotient - (1 << (bits - 1)))
+}

@@ -1,4 +1,5 @@
 //! Terraline.
+pub mod clock;
 pub mod fast;
 pub mod frame;
 pub mod plan;
@@ -6,5 +7,7 @@ pub mod processor;
 pub mod readout;
 pub mod scene;
 pub mod setup;
+pub mod sink;
+pub mod study;
 pub mod unit;
 pub mod word;

@@ -46,7 +46,8 @@ impl<'a> Reader<'a> {
                 (point, DVec3::new(slope_x, 1.0, slope_z).normalize())
             }
             Ground::Plane(plane) => {
-                let foot = plane.normal * (plane.numerator + plane.normal.dot(self.plan.geometry.eye));
+                let foot =
+                    plane.normal * (plane.numerator + plane.normal.dot(self.plan.geometry.eye));
                 let [first, second] = plane.axes;
                 let point = foot + (first * x + second * z) * plane.checker;
                 (point, plane.normal)

@@ -9,7 +9,10 @@ pub mod units;
 
 use glam::DVec3;
 
-use crate::scene::{Deformation, Kernel, KernelShape, Outside, Scene, Screen, StepperMode, Surface, Terrain, WordSize};
+use crate::scene::{
+    Deformation, Kernel, KernelShape, Outside, Scene, Screen, StepperMode, Surface, Terrain,
+    WordSize,
+};
 use crate::word::{Class, Fixed, Register};
 use geometry::Geometry;
 use ranges::WalkPlan;
@@ -49,8 +52,10 @@ pub enum PlanError {
         known: String,
     },
     /// An unknown register in `[format]`.
-    #[error("format.{name}: no register or class has this name; the nearest is {nearest}; \
-             classes: view, ground, height, weight, tone")]
+    #[error(
+        "format.{name}: no register or class has this name; the nearest is {nearest}; \
+             classes: view, ground, height, weight, tone"
+    )]
     UnknownRegister {
         /// What was asked for.
         name: String,
@@ -259,9 +264,7 @@ fn terrain_needs(scene: &Scene, terrain: &Terrain, walk: &WalkPlan) -> Fitted {
 
 impl PlanePlan {
     fn new(scene: &Scene, geometry: &Geometry) -> Result<Self, PlanError> {
-        let Surface::Plane(plane) = &scene.surface else {
-            unreachable!("called for planes only")
-        };
+        let Surface::Plane(plane) = &scene.surface else { unreachable!("called for planes only") };
         let axes = plane_axes(plane.normal);
         let eye = axes.map(|axis| axis.dot(geometry.eye) / plane.checker);
         let farthest = eye[0].abs().max(eye[1].abs());

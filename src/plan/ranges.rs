@@ -78,7 +78,11 @@ impl WalkPlan {
         let narrow = Self::in_words(terrain, geometry, fineness, WordClass::NARROW);
         let wide = || {
             Self::in_words(terrain, geometry, fineness, WordClass::WIDE).map_err(|reason| {
-                PlanError::Range { field: "camera.position", reason, remedy: "move the eye closer to the map" }
+                PlanError::Range {
+                    field: "camera.position",
+                    reason,
+                    remedy: "move the eye closer to the map",
+                }
             })
         };
         match (asked, narrow) {
@@ -205,10 +209,9 @@ impl WalkPlan {
         use crate::unit::stepper::HalvingRule;
         match asked {
             Halvings::Fixed(times) => HalvingRule::Fixed(times),
-            Halvings::Footprint => HalvingRule::Footprint {
-                bias: self.halving_bias,
-                cap: self.halving_cap(fineness),
-            },
+            Halvings::Footprint => {
+                HalvingRule::Footprint { bias: self.halving_bias, cap: self.halving_cap(fineness) }
+            }
         }
     }
 }

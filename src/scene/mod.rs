@@ -207,8 +207,7 @@ impl Terrain {
     /// Depth of the block under the lowest node, see [`Terrain::base_depth`].
     pub fn base_depth(&self) -> f64 {
         let (low, high) = self.range();
-        self.base_depth
-            .unwrap_or_else(|| ((high - low) / 4.0).max(2.0 * self.cell.max_element()))
+        self.base_depth.unwrap_or_else(|| ((high - low) / 4.0).max(2.0 * self.cell.max_element()))
     }
 }
 

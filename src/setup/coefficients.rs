@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::memory::{Memory, load};
 use super::SetupError;
+use super::memory::{Memory, load};
 use crate::plan::geometry::{LinearScalar, LinearVector};
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanePlan};
@@ -146,7 +146,8 @@ struct PlaneView {
 fn plane_view(plan: &Plan, plane: &PlanePlan) -> PlaneView {
     let along = plane.axes.map(|axis| plan.geometry.view.dot(axis).scaled(1.0 / plane.checker));
     let g = plan.geometry.view.dot(plane.normal);
-    let pack = |pick: &dyn Fn(&LinearScalar) -> f64| DVec3::new(pick(&along[0]), 0.0, pick(&along[1]));
+    let pack =
+        |pick: &dyn Fn(&LinearScalar) -> f64| DVec3::new(pick(&along[0]), 0.0, pick(&along[1]));
     PlaneView {
         view: LinearVector {
             start: pack(&|s| s.start),
@@ -238,15 +239,13 @@ pub(super) fn terrain_shader<W: Open>(
             rsqrt: memory.rsqrt.clone(),
             rsqrt_log2: memory.rsqrt_log2,
             normal_format: world.tone(Register::Normal),
-            shade_format: world.tone(Register::Shade),
         })
     } else {
         None
     };
     let exponent = normalising(walk.top);
     let segments = scene.color.ramp.len() - 1;
-    let gain =
-        if walk.top == 0.0 { 0.0 } else { segments as f64 / (walk.top * power(exponent)) };
+    let gain = if walk.top == 0.0 { 0.0 } else { segments as f64 / (walk.top * power(exponent)) };
     let segment = |pair: &[[u8; 3]]| -> Result<[(W::Tone, W::Tone); 3], SetupError> {
         let channel = |at: usize| -> Result<(W::Tone, W::Tone), SetupError> {
             let (from, to) = (f64::from(pair[0][at]), f64::from(pair[1][at]));
@@ -294,7 +293,8 @@ pub(super) fn plane_shader<W: Open>(
     let format = world.view(Register::Denominator);
     // Where twice that denominator is beyond the register, no pixel reaches it.
     let full_from = W::View::load(2.0 * at_zero_contrast, format);
-    let gain = if at_zero_contrast == 0.0 { 0.0 } else { 1.0 / (at_zero_contrast * power(exponent)) };
+    let gain =
+        if at_zero_contrast == 0.0 { 0.0 } else { 1.0 / (at_zero_contrast * power(exponent)) };
     Ok(PlaneShader {
         flat: flat(&scene.color),
         mean,

@@ -60,9 +60,11 @@ impl<W: Dividing> Divider<W> {
         for i in 0..line.len() {
             let denominator = line.denominator[i];
             let site = Site::pixel(line.number, line.column[i]);
-            line.entry[i] = if denominator > denominator - denominator {
-                let x = divide(line.view_x[i], denominator, self.ratio_x, site.at(Register::GroundX));
-                let z = divide(line.view_z[i], denominator, self.ratio_z, site.at(Register::GroundZ));
+            line.entry[i] = if denominator.sign() > 0 {
+                let x =
+                    divide(line.view_x[i], denominator, self.ratio_x, site.at(Register::GroundX));
+                let z =
+                    divide(line.view_z[i], denominator, self.ratio_z, site.at(Register::GroundZ));
                 match (x, z) {
                     (Some(x), Some(z)) => {
                         line.ground_x[i] = self.eye_x + x;

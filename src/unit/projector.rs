@@ -104,17 +104,17 @@ impl<W: World> Projector<W> {
 
     /// Additions per pixel: one per accumulator whose column increment is not zero.
     pub fn additions_per_pixel(&self) -> u32 {
-        self.accumulators().filter(|(_, c)| c.per_column.magnitude() > zero(c.start)).count() as u32
+        self.accumulators().filter(|(_, c)| c.per_column.sign() != 0).count() as u32
     }
-}
-
-/// Zero in the format of another word.
-fn zero<T: Word>(like: T) -> T {
-    like - like
 }
 
 /// One accumulator along one line.
 fn accumulate<T: Word>(start: T, per_column: T, columns: &[u32], wire: &mut [T]) {
+    if per_column.sign() == 0 {
+        // No adder is fitted for an increment of zero.
+        wire.fill(start);
+        return;
+    }
     let mut sum = start;
     let mut at = 0;
     for (out, &column) in wire.iter_mut().zip(columns) {

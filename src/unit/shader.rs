@@ -57,8 +57,6 @@ pub struct Light<W: World> {
     pub rsqrt_log2: u32,
     /// Format of the scaled normal.
     pub normal_format: <W::Tone as Word>::Format,
-    /// Format of its products.
-    pub shade_format: <W::Tone as Word>::Format,
 }
 
 /// Registers of the ramp.
@@ -97,8 +95,7 @@ impl<W: Shading> TerrainShader<W> {
                 Hit::Side => self.flat.side,
                 Hit::Surface => {
                     let site = Site::pixel(line.number, line.column[i]);
-                    let tones =
-                        self.tones(line.surface[i], line.slope_x[i], line.slope_z[i], site);
+                    let tones = self.tones(line.surface[i], line.slope_x[i], line.slope_z[i], site);
                     tones.channels.map(byte)
                 }
             };
@@ -141,7 +138,7 @@ impl<W: Shading> Light<W> {
         let [light_x, light_y, light_z] = self.toward;
         let site = site.at(Register::Shade);
         let dot = x.multiply_two(light_x, z, light_z, site) + y.multiply(light_y, site.step(1));
-        if dot > W::Tone::zero(self.shade_format) {
+        if dot.sign() > 0 {
             let shade = self.ambient + dot.multiply(self.rsqrt[entry], site.step(2));
             // The table's rounding may lift full light above one by a bit.
             if shade > self.one { self.one } else { shade }
@@ -233,10 +230,10 @@ impl<W: Shading> PlaneShader<W> {
         let contrast = scaled - self.one;
         if contrast > self.one {
             self.one
-        } else if contrast > self.one - self.one {
+        } else if contrast.sign() > 0 {
             contrast
         } else {
-            self.one - self.one
+            W::Tone::zero(self.format)
         }
     }
 

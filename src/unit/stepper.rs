@@ -301,14 +301,13 @@ impl<W: World> Stepper<W> {
 
     #[inline(always)]
     fn heading(&self, step: Place<W>) -> Heading {
-        let (ground, height) = (step.x - step.x, step.y - step.y);
         Heading {
-            west: step.x <= ground,
-            east: step.x >= ground,
-            north: step.z <= ground,
-            south: step.z >= ground,
-            rises: step.y >= height,
-            falls: step.y <= height,
+            west: step.x.sign() <= 0,
+            east: step.x.sign() >= 0,
+            north: step.z.sign() <= 0,
+            south: step.z.sign() >= 0,
+            rises: step.y.sign() >= 0,
+            falls: step.y.sign() <= 0,
         }
     }
 

@@ -74,6 +74,9 @@ pub trait Word:
     #[must_use]
     fn magnitude(self) -> Self;
 
+    /// −1, 0 or 1: the sign bit and a test for zero, no adder.
+    fn sign(self) -> i32;
+
     /// Place of the leading one of the magnitude: e with `2^e <= |value| < 2^(e+1)`. For zero,
     /// one place below the last bit (very negative in the real world).
     fn leading_one(self) -> i32;

@@ -63,6 +63,10 @@ impl Word for RealWord {
         Self(self.0.abs())
     }
 
+    fn sign(self) -> i32 {
+        i32::from(self.0 > 0.0) - i32::from(self.0 < 0.0)
+    }
+
     fn leading_one(self) -> i32 {
         // frexp gives a mantissa in [1/2, 1); zero has no leading one.
         if self.0 == 0.0 { -2000 } else { libm::frexp(self.0.abs()).1 - 1 }

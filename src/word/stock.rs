@@ -100,6 +100,10 @@ macro_rules! stock_words {
                     Self::of(self.bits().wrapping_abs())
                 }
                 #[inline(always)]
+                fn sign(self) -> i32 {
+                    self.bits().signum() as i32
+                }
+                #[inline(always)]
                 fn leading_one(self) -> i32 {
                     const TOP: i32 = $int::BITS as i32 - 1;
                     TOP - self.magnitude().bits().leading_zeros() as i32 - Self::POINT as i32

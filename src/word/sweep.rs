@@ -150,6 +150,10 @@ impl Word for SweepWord {
         self.with(self.bits().abs())
     }
 
+    fn sign(self) -> i32 {
+        self.aligned.signum() as i32
+    }
+
     fn leading_one(self) -> i32 {
         127 - self.bits().unsigned_abs().leading_zeros() as i32 - self.point() as i32
     }
@@ -208,8 +212,7 @@ impl Multiply<SweepWord> for SweepWord {
     fn multiply_two(self, by: Self, other: Self, other_by: Self, site: Site) -> Self {
         let overflowed =
             self.overflowed || by.overflowed || other.overflowed || other_by.overflowed;
-        let product =
-            (self.bits() * by.bits()).wrapping_add(other.bits() * other_by.bits());
+        let product = (self.bits() * by.bits()).wrapping_add(other.bits() * other_by.bits());
         self.format.rounded(product, by.point(), site, overflowed)
     }
 }
@@ -222,7 +225,8 @@ impl Divide<SweepWord> for SweepWord {
         _: Site,
     ) -> Option<SweepWord> {
         let point = u32::from(ratio.format.point);
-        let shift = ratio.exponent + point as i32 + denominator.point() as i32 - self.point() as i32;
+        let shift =
+            ratio.exponent + point as i32 + denominator.point() as i32 - self.point() as i32;
         let bits = ratio.range + point + 1;
         let overflowed = self.overflowed || denominator.overflowed;
         let quotient = if shift >= 0 {

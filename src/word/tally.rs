@@ -110,6 +110,9 @@ impl<T: Word> Word for TallyWord<T> {
         count(|c| c.additions += 1);
         Self(self.0.magnitude())
     }
+    fn sign(self) -> i32 {
+        self.0.sign()
+    }
     fn leading_one(self) -> i32 {
         self.0.leading_one()
     }

@@ -1,0 +1,4 @@
+//! Measurements on frames and on the engines that drew them.
+
+pub mod compare;
+pub mod ssim;

@@ -12,18 +12,28 @@
 //! ```
 //!
 //! Nothing in this module knows about registers or engines. A [`Scene`] that exists is complete
-//! and finite: every value has been checked by the reader in [`file`].
+//! and finite: every value has been checked by the reader in [`mod@file`].
 
+mod array;
 pub mod builtin;
+mod camera;
+pub mod error;
+mod field;
 pub mod file;
 pub mod height_map;
+mod keys;
+pub mod screen;
 pub mod set;
+mod surface;
+mod tree;
 
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 pub use crate::word::{Overflow, Rounding};
+pub use builtin::load;
+pub use error::SceneError;
 pub use height_map::HeightMap;
 
 /// A complete scene: camera, screens, one surface, and the machine that draws it.
@@ -180,6 +190,9 @@ pub struct Terrain {
     pub scale: f64,
     /// What lies beyond the map.
     pub outside: Outside,
+    /// What nodes without data become. PNG marks no such nodes, so this takes effect with
+    /// formats that do.
+    pub nodata: NoData,
     /// Depth of the block under the lowest node whose sides are drawn, in scene units, positive.
     /// A ray that falls below it outside the map sees sky. `None`: a quarter of the relief, two
     /// cells at least.
@@ -220,6 +233,17 @@ pub enum Outside {
     Clamp,
     /// The map repeats; its period is its number of nodes.
     Wrap,
+}
+
+/// What nodes without data become.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoData {
+    /// Cells that touch one are holes.
+    Hole,
+    /// The sample of the nearest node with data.
+    Nearest,
+    /// This sample, in the unit of the map.
+    Sample(f64),
 }
 
 /// A checkered plane.

@@ -1,0 +1,44 @@
+//! Random texts, damaged scenes and odd options end in a scene or in a message, never in a panic.
+
+use proptest::prelude::*;
+
+use super::{EVERY_KEY, try_scene};
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn random_texts_never_panic(text in "\\PC*", set in "[a-z.0-9]{0,12}=\\PC{0,8}") {
+        let _ = try_scene(&text, &[]);
+        let _ = try_scene("", &[&set, &text]);
+    }
+
+    #[test]
+    fn mutations_of_a_scene_never_panic(
+        at in 0_usize..1000, length in 0_usize..8, insert in "[\\PC\\n]{0,3}|nan|1e99|-1|\\[\\]|\"",
+    ) {
+        let chars: Vec<char> = EVERY_KEY.chars().collect();
+        let at = at % chars.len();
+        let end = (at + length).min(chars.len());
+        let text: String =
+            chars[..at].iter().copied().chain(insert.chars()).chain(chars[end..].iter().copied()).collect();
+        if let Err(error) = try_scene(&text, &[]) {
+            prop_assert_eq!(error.to_string().lines().count(), 1);
+        }
+    }
+
+    #[test]
+    fn options_of_any_value_never_panic(
+        key in prop::sample::select(vec![
+            "camera", "camera.position", "camera.heading", "camera.forward", "camera.up", "screen",
+            "screen.size", "screen.0.fov", "screen.1.pixel", "surface", "surface.cell",
+            "surface.kind", "surface.height", "surface.height.scale", "color.ramp",
+            "color.ramp.0", "format.view", "machine.words", "kernel.table", "seed",
+        ]),
+        value in "[0-9.e\\[\\],{}=\"a-z-]{0,12}|-?[0-9]{1,12}e-?[0-9]{1,3}|\\[-?[0-9]{1,9}e-?[0-9]{1,3}, ?[0-9]{1,9}(, 0)?\\]",
+    ) {
+        if let Err(error) = try_scene(EVERY_KEY, &[&format!("{key}={value}")]) {
+            prop_assert_eq!(error.to_string().lines().count(), 1);
+        }
+    }
+}

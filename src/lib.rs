@@ -1,7 +1,10 @@
 //! Terraline.
+pub mod cli;
 pub mod clock;
+pub mod engine;
 pub mod fast;
 pub mod frame;
+pub mod oracle;
 pub mod plan;
 pub mod processor;
 pub mod readout;

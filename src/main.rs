@@ -1,1 +1,7 @@
-fn main() {}
+//! The `terraline` command.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    terraline::cli::main()
+}

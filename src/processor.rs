@@ -49,6 +49,11 @@ impl<'a, W: Complete> Processor<'a, W> {
         self.next += 1;
     }
 
+    /// The accumulators at the first column of the next line.
+    pub fn line_start(&self) -> &LineStart<W> {
+        &self.start
+    }
+
     /// The line that [`Processor::run_line`] draws next.
     pub fn next_line(&self) -> u32 {
         self.next

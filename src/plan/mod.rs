@@ -299,11 +299,9 @@ impl PlanePlan {
     }
 }
 
-/// In-plane axes (equation 11): x and z for a horizontal plane; else an axis across the normal
-/// and the third one that completes them.
+/// In-plane axes (equation 11): along n × z (n × x where n is nearly z), and across it; x and z
+/// for a floor.
 pub(crate) fn plane_axes(normal: DVec3) -> [DVec3; 2] {
-    // The upper side, so that a floor and a ceiling have the same squares.
-    let normal = if normal.y < 0.0 { -normal } else { normal };
     let across = if normal.z.abs() < 0.9 { DVec3::Z } else { DVec3::X };
     let first = normal.cross(across).normalize();
     [first, first.cross(normal)]

@@ -99,9 +99,15 @@ pub fn load(name_or_path: Option<&str>, sets: &[String]) -> Result<Scene, SceneE
             other => other,
         });
     }
-    Err(SceneError::UnknownScene {
+    Err(unknown(name))
+}
+
+/// The error for a name that no built-in scene has.
+pub fn unknown(name: &str) -> SceneError {
+    let names = || SCENES.iter().map(|scene| scene.name);
+    SceneError::UnknownScene {
         name: super::tree::shorten(name),
         suggestion: nearest(name, names()).map(str::to_owned),
         known: list(names()),
-    })
+    }
 }

@@ -38,12 +38,18 @@ pub fn slope(shape: KernelShape, t: f64) -> f64 {
     }
 }
 
-/// Deformation 1: `⅔ f(⅔t)`, support (−3/2, 3/2).
+/// Outer weights of deformation 1, `α · ⅔ f(⅔t)` on (−3/2, 3/2), with `α = ¾ / f(⅓)` so that the
+/// patches around neighbouring nodes meet half-way between them (equation 17); α = 1 for the
+/// cosine.
 pub fn stretched(shape: KernelShape, t: f64) -> f64 {
-    2.0 / 3.0 * value(shape, 2.0 / 3.0 * t)
+    meeting(shape) * (2.0 / 3.0) * value(shape, 2.0 / 3.0 * t)
 }
 
 /// Its derivative.
 pub fn stretched_slope(shape: KernelShape, t: f64) -> f64 {
-    4.0 / 9.0 * slope(shape, 2.0 / 3.0 * t)
+    meeting(shape) * (4.0 / 9.0) * slope(shape, 2.0 / 3.0 * t)
+}
+
+fn meeting(shape: KernelShape) -> f64 {
+    0.75 / value(shape, 1.0 / 3.0)
 }

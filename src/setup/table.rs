@@ -1,1 +1,122 @@
-//! The register table.
+//! The register table: what each register holds, in which unit, by which equation, and how far it
+//! can be from the exact value. `docs/registers.md` is generated from it.
+
+use std::fmt::Write as _;
+
+use super::formats::follows;
+use crate::clock::{DIVIDER_ENDS, LERP_LATENCY, RAY_START, SHADER_LATENCY};
+use crate::plan::WordClass;
+use crate::word::Register;
+
+/// One row of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Register.
+    pub register: Register,
+    /// Unit that drives it.
+    pub unit: &'static str,
+    /// What it holds.
+    pub meaning: &'static str,
+    /// Physical unit.
+    pub measure: &'static str,
+    /// Numbers of its equations in docs/mathematics.md.
+    pub equations: &'static str,
+    /// Bound of its error against the exact value, ulp the register's last bit.
+    pub bound: &'static str,
+}
+
+/// The row of a register.
+pub fn entry(register: Register) -> Entry {
+    use Register as R;
+    let row = |unit, meaning, measure, equations, bound| Entry {
+        register,
+        unit,
+        meaning,
+        measure,
+        equations,
+        bound,
+    };
+    const VIEW: &str = "(1 + line + column)/2 ulp (29)";
+    match register {
+        R::ViewX => row("projector", "view vector along x", "cells × 2^e", "5, 6", VIEW),
+        R::ViewY => row("projector", "view vector along y", "height units × 2^e", "5, 6", VIEW),
+        R::ViewZ => row("projector", "view vector along z", "cells × 2^e", "5, 6", VIEW),
+        R::Denominator => {
+            row("projector", "s n·V/|F|, positive towards the plane", "2^d", "8, 9", VIEW)
+        }
+        R::GroundX => row("divider, stepper", "position, x", "cells", "9, 19", "(30), (31)"),
+        R::GroundZ => row("divider, stepper", "position, z", "cells", "9, 19", "(30), (31)"),
+        R::DGroundX => row("stepper", "step, x", "cells", "20", "½ ulp + (29) shifted"),
+        R::DGroundZ => row("stepper", "step, z", "cells", "20", "½ ulp + (29) shifted"),
+        R::RayY => row("stepper", "height of the ray", "height units", "19", "(31)"),
+        R::DRayY => row("stepper", "step, y", "height units", "20", "½ ulp + (29) shifted"),
+        R::Node => row("height memory", "node of the map", "height units", "14", "½ ulp"),
+        R::Surface => row(
+            "interpolator",
+            "surface height",
+            "height units",
+            "14, 17",
+            "nodes and 2 lerps: 2 ulp, plus the table's share (13)",
+        ),
+        R::SlopeX => row("interpolator", "−∂y/∂x", "1", "15, 18", "table's share (13)"),
+        R::SlopeZ => row("interpolator", "−∂y/∂z", "1", "15, 18", "table's share (13)"),
+        R::Weight => row("kernel ROM", "kernel weight", "1", "12, 16", "½ ulp + (13)"),
+        R::WeightSlope => row("kernel ROM", "its derivative", "1/cell", "12, 16", "½ ulp + (13)"),
+        R::Normal => row("shader", "normal, scaled below one", "1", "23", "½ ulp"),
+        R::Shade => row("shader", "ambient plus diffuse light", "1", "24, 25", "2^-10 (24)"),
+        R::Ramp => row("shader", "place on the ramp", "segments", "26", "3 ulp of height"),
+        R::Channel => row("shader", "colour channel", "0..=255", "26, 27", "1 level"),
+    }
+}
+
+/// docs/registers.md.
+pub fn markdown() -> String {
+    let mut out = String::from(
+        "# Registers\n\n\
+         Generated from the register table (`src/setup/table.rs`); a test compares the two.\n\n\
+         Formats are written Q*i.f*: *i* bits before the point, sign included, *f* after it. \
+         Numbers in parentheses are equations of [mathematics.md](mathematics.md). A register \
+         named under *follows* meets its leader in an adder and always has its format; \
+         `[format]` sets the leader. Exponents e and d are powers of two of the set-up that bring \
+         the largest value on the screen into [½, 1).\n\n\
+         | register | class | unit | holds | measure | narrow | wide | follows | equations | error bound |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for &register in Register::ALL {
+        let e = entry(register);
+        let _ = writeln!(
+            out,
+            "| `{}` | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            register,
+            register.class().name(),
+            e.unit,
+            e.meaning,
+            e.measure,
+            WordClass::NARROW.fixed(register),
+            WordClass::WIDE.fixed(register),
+            follows(register).map_or_else(String::new, |leader| format!("`{leader}`")),
+            e.equations,
+            e.bound
+        );
+    }
+    let _ = write!(
+        out,
+        "\n## Latencies and queues\n\n\
+         Cycles; M is `machine.memory_latency`, *bits* the quotient bits of the plan. A unit holds \
+         *depth* items, pipeline and queue together (equation 28).\n\n\
+         | unit | work on an item | latency | depth |\n|---|---|---|---|\n\
+         | projector | 1 | 1 | 2 |\n\
+         | divider | 1 | bits + {DIVIDER_ENDS} | bits + {} |\n\
+         | stepper | {RAY_START} + trials·(1 + M) + samples·R + groups·(M + {LERP_LATENCY}) + \
+         halvings·(R + M + {LERP_LATENCY}) | 1 | 2 |\n\
+         | interpolator | R | M + {LERP_LATENCY} | M + {} |\n\
+         | shader | 1 | {SHADER_LATENCY} | {} |\n\
+         | frame | 1 | 0 | 1 |\n\n\
+         R, reads of the height memory per interpolation: 1 cycle for 2×2 nodes, 4 for 3×3. A \
+         group is a run of up to 2^k samples streamed through the interpolator.\n",
+        DIVIDER_ENDS + 1,
+        LERP_LATENCY + 1,
+        SHADER_LATENCY + 1,
+    );
+    out
+}

@@ -1,7 +1,7 @@
 //! The wires of one scan line: a structure of arrays, one entry per pixel in flight.
 
 use crate::frame::Hit;
-use crate::word::World;
+use crate::word::{Register, Word, World};
 
 /// What the divider says of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,7 +69,6 @@ pub struct Line<W: World> {
 impl<W: World> Line<W> {
     /// Idle wires for the given columns.
     pub fn new(world: &W, columns: impl IntoIterator<Item = u32>) -> Self {
-        use crate::word::{Register, Word};
         let column: Vec<u32> = columns.into_iter().collect();
         let n = column.len();
         let view = vec![W::View::zero(world.view(Register::ViewX)); n];
@@ -102,5 +101,28 @@ impl<W: World> Line<W> {
     /// Whether there are no pixels on the wires.
     pub fn is_empty(&self) -> bool {
         self.column.is_empty()
+    }
+
+    /// Registers whose wires carry overflowed values: pixels, and the first pixel's column. Empty
+    /// in stock worlds, whose ranges are proved.
+    pub fn overflows(&self) -> Vec<(Register, u64, u32)> {
+        let mut found = Vec::new();
+        let mut look = |register, overflowed: &dyn Fn(usize) -> bool| {
+            let mut pixels = (0..self.len()).filter(|&i| overflowed(i));
+            if let Some(first) = pixels.next() {
+                found.push((register, 1 + pixels.count() as u64, self.column[first]));
+            }
+        };
+        let met = |i: usize| matches!(self.hit[i], Hit::Surface | Hit::Side);
+        look(Register::ViewX, &|i| self.view_x[i].overflowed());
+        look(Register::ViewY, &|i| self.view_y[i].overflowed());
+        look(Register::ViewZ, &|i| self.view_z[i].overflowed());
+        look(Register::Denominator, &|i| self.denominator[i].overflowed());
+        look(Register::GroundX, &|i| self.ground_x[i].overflowed());
+        look(Register::GroundZ, &|i| self.ground_z[i].overflowed());
+        look(Register::Surface, &|i| met(i) && self.surface[i].overflowed());
+        look(Register::SlopeX, &|i| met(i) && self.slope_x[i].overflowed());
+        look(Register::SlopeZ, &|i| met(i) && self.slope_z[i].overflowed());
+        found
     }
 }

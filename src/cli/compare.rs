@@ -1,0 +1,67 @@
+//! `terraline compare`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{Stop, report};
+use crate::sink::{self, png};
+use crate::study::compare::{Comparison, compare_files, difference_picture, gain};
+
+/// Compare two frames (PNG) or two sets of buffers (npz).
+#[derive(Debug, Args)]
+#[command(after_help = "Example: terraline compare fast.png processor.png --max-diff 0")]
+pub struct Compare {
+    /// The first frame or buffers.
+    a: PathBuf,
+
+    /// The second.
+    b: PathBuf,
+
+    /// Exit 1 if any value differs by more than this.
+    #[arg(long, value_name = "D")]
+    max_diff: Option<f64>,
+
+    /// Write the absolute difference of two pictures, amplified, as a PNG.
+    #[arg(short, long, value_name = "OUT.png")]
+    output: Option<PathBuf>,
+
+    /// One JSON object on stdout.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Compare {
+    pub fn run(&self) -> Result<(), Stop> {
+        if self.max_diff.is_some_and(|limit| !(limit >= 0.0 && limit.is_finite())) {
+            return Err(Stop::BadInput(
+                "--max-diff: give a number of at least 0, for example --max-diff 2".into(),
+            ));
+        }
+        if let Some(path) = &self.output {
+            sink::check_writable(path)?;
+        }
+        let comparison = compare_files(&self.a, &self.b)?;
+        if let Some(path) = &self.output {
+            let Comparison::Picture(pictures) = &comparison else {
+                return Err(Stop::BadInput(
+                    "-o: a difference picture needs two PNGs, these are buffers; leave -o out"
+                        .into(),
+                ));
+            };
+            let gain = gain(pictures.max_difference);
+            let difference = difference_picture(&png::read(&self.a)?, &png::read(&self.b)?, gain)?;
+            png::write(path, difference.columns, difference.lines, &difference.pixels)?;
+            eprintln!("wrote {}, differences times {gain}", path.display());
+        }
+        if self.json {
+            report::json("compare", None, &comparison)?;
+        } else {
+            report::print(&comparison.to_string());
+        }
+        match self.max_diff {
+            Some(limit) if !comparison.is_within(limit) => Err(Stop::Failure),
+            _ => Ok(()),
+        }
+    }
+}

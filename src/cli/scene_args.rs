@@ -1,0 +1,179 @@
+//! Which scene, and what is changed in it.
+
+use clap::Args;
+
+use super::Stop;
+use crate::engine::FixedWorld;
+use crate::plan::Plan;
+use crate::scene::screen::{MAX_PIXELS, MAX_SIDE};
+use crate::scene::{self, FormatRequest, Overflow, Rounding, Scene};
+
+/// Scene and overrides.
+#[derive(Debug, Args)]
+pub struct SceneArgs {
+    /// A scene file (.toml) or the name of a built-in scene; `overview` if not given.
+    pub scene: Option<String>,
+
+    /// Override a value of the scene, for example `--set camera.pitch=-20`; repeatable.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+
+    /// Another raster: columns x lines; the field of view across stays.
+    #[arg(long, value_name = "WxH")]
+    size: Option<String>,
+
+    /// The screen (channel) to draw; the first if not given.
+    #[arg(long, value_name = "NAME")]
+    screen: Option<String>,
+
+    /// A register or class in a format of its own (sweep world), for example `ground=24.8` or
+    /// `ground_x=12.16:stochastic:saturate`: bits before and after the point, rounding, overflow.
+    #[arg(long = "format", value_name = "NAME=I.F[:ROUNDING[:OVERFLOW]]")]
+    format: Vec<String>,
+
+    /// Fit every unit, whether the scene needs it or not.
+    #[arg(long)]
+    full: bool,
+}
+
+/// A scene with its plan and world.
+#[derive(Debug)]
+pub struct Planned {
+    /// The scene.
+    pub scene: Scene,
+    /// Its plan.
+    pub plan: Plan,
+    /// Its fixed-point world.
+    pub world: FixedWorld,
+    /// How to name the scene and its overrides on a command line.
+    pub invocation: String,
+}
+
+impl SceneArgs {
+    /// Reads, overrides and plans the scene.
+    pub fn load(&self) -> Result<Planned, Stop> {
+        let mut scene = scene::load(self.scene.as_deref(), &self.set)?;
+        for format in &self.format {
+            scene.formats.push(parse_format(format)?);
+        }
+        if let Some(size) = &self.size {
+            let (columns, lines) = parse_size(size)?;
+            for screen in &mut scene.screens {
+                *screen = screen.resized(columns, lines);
+            }
+        }
+        let plan = Plan::new(&scene, self.screen.as_deref(), self.full)?;
+        let world = FixedWorld::of(&scene, &plan)?;
+        let invocation = self.invocation();
+        Ok(Planned { scene, plan, world, invocation })
+    }
+
+    /// The arguments again, quoted for a shell.
+    fn invocation(&self) -> String {
+        let mut words = vec![quote(self.scene.as_deref().unwrap_or("overview"))];
+        let mut option = |name: &str, value: &str| words.push(format!("{name} {}", quote(value)));
+        self.set.iter().for_each(|value| option("--set", value));
+        self.format.iter().for_each(|value| option("--format", value));
+        if let Some(size) = &self.size {
+            option("--size", size);
+        }
+        if let Some(screen) = &self.screen {
+            option("--screen", screen);
+        }
+        if self.full {
+            words.push("--full".into());
+        }
+        words.join(" ")
+    }
+}
+
+/// A word for a POSIX shell.
+fn quote(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=./,:+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+/// `WxH`.
+fn parse_size(text: &str) -> Result<(u32, u32), Stop> {
+    let bad = |reason: String| {
+        Stop::BadInput(format!(
+            "--size {text}: {reason}; give columns x lines, for example 640x480, at most \
+             {MAX_SIDE} a side and {MAX_PIXELS} pixels"
+        ))
+    };
+    let (columns, lines) =
+        text.split_once(['x', 'X', '×']).ok_or_else(|| bad("no `x` between two numbers".into()))?;
+    let side = |side: &str| -> Result<u32, Stop> {
+        match side.trim().parse::<u32>() {
+            Ok(0) => Err(bad("a screen has at least one pixel".into())),
+            Ok(value) if value > MAX_SIDE => Err(bad(format!("{value} is too many"))),
+            Ok(value) => Ok(value),
+            Err(_) => Err(bad(format!("`{side}` is not a number of pixels"))),
+        }
+    };
+    let (columns, lines) = (side(columns)?, side(lines)?);
+    if u64::from(columns) * u64::from(lines) > MAX_PIXELS {
+        return Err(bad("too many pixels".into()));
+    }
+    Ok((columns, lines))
+}
+
+/// `COLUMN,LINE`, inside the plan's screen.
+pub fn parse_pixel(text: &str, plan: &Plan) -> Result<(u32, u32), Stop> {
+    let (columns, lines) = (plan.geometry.columns, plan.geometry.lines);
+    let bad = |reason: &str| {
+        Stop::BadInput(format!(
+            "--pixel {text}: {reason}; give column,line from 0,0 at the top left to {},{}",
+            columns - 1,
+            lines - 1
+        ))
+    };
+    let (column, line) = text.split_once(',').ok_or_else(|| bad("no comma"))?;
+    let number = |text: &str| text.trim().parse::<u32>().map_err(|_| bad("not two numbers"));
+    let (column, line) = (number(column)?, number(line)?);
+    if column >= columns || line >= lines {
+        return Err(bad("outside the screen"));
+    }
+    Ok((column, line))
+}
+
+/// `NAME=I.F[:ROUNDING[:OVERFLOW]]`.
+fn parse_format(text: &str) -> Result<(String, FormatRequest), Stop> {
+    let bad = |reason: &str| {
+        Stop::BadInput(format!(
+            "--format {text}: {reason}; for example ground=24.8 or ground=24.8:nearest:saturate \
+             (rounding floor, toward_zero, nearest, nearest_even or stochastic; overflow wrap or \
+             saturate)"
+        ))
+    };
+    let (name, format) = text.split_once('=').ok_or_else(|| bad("no `=`"))?;
+    let mut parts = format.split(':');
+    let bits = parts.next().unwrap_or_default();
+    let (integer, point) =
+        bits.split_once('.').ok_or_else(|| bad("no `.` between integer and fraction bits"))?;
+    let number = |text: &str| text.parse::<u32>().map_err(|_| bad("bits are not numbers"));
+    let (integer, point) = (number(integer)?, number(point)?);
+    let width = integer.checked_add(point).filter(|width| (2..=62).contains(width));
+    let width = width.ok_or_else(|| bad("a register has 2 to 62 bits in all"))?;
+    let rounding = match parts.next().unwrap_or("floor") {
+        "floor" => Rounding::Floor,
+        "toward_zero" => Rounding::TowardZero,
+        "nearest" => Rounding::Nearest,
+        "nearest_even" => Rounding::NearestEven,
+        "stochastic" => Rounding::Stochastic,
+        _ => return Err(bad("unknown rounding")),
+    };
+    let overflow = match parts.next().unwrap_or("wrap") {
+        "wrap" => Overflow::Wrap,
+        "saturate" => Overflow::Saturate,
+        _ => return Err(bad("unknown overflow")),
+    };
+    if parts.next().is_some() {
+        return Err(bad("too many parts"));
+    }
+    Ok((name.to_owned(), FormatRequest { width, point, rounding, overflow }))
+}

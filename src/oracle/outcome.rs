@@ -1,0 +1,172 @@
+//! What a ray meets on a terrain: surface, side of the map, sky, or nothing within reach.
+//!
+//! The solid is the set of points over the domain of the map with y < surface(x, z).
+
+use super::camera::Ray;
+use super::ground::Ground;
+use super::walk::{Track, Walk};
+use crate::frame::Hit;
+use crate::scene::Outside;
+
+/// The end of a ray.
+#[derive(Clone, Debug)]
+pub struct Outcome<'a> {
+    /// What was met.
+    pub hit: Hit,
+    /// Where; NaN on a miss.
+    pub lambda: f64,
+    /// The patch that was met.
+    pub patch: (i64, i64),
+    /// The ray came closer to the surface than rounding can tell.
+    pub tangent: bool,
+    /// The walk, behind the hit and below the surface; `None` on a miss.
+    pub behind: Option<Walk<'a>>,
+}
+
+impl Outcome<'_> {
+    fn miss(hit: Hit, tangent: bool) -> Self {
+        Self { hit, lambda: f64::NAN, patch: (0, 0), tangent, behind: None }
+    }
+}
+
+/// The first entry of a ray into the solid for λ > 0. On a map that goes on for ever the walk ends
+/// `reach_cells` from the eye, along the axis on which the ray moves most.
+///
+/// An eye under the ground meets the surface at λ = 0.
+#[must_use]
+pub fn first_entry<'a>(ground: &'a Ground, ray: &Ray, reach_cells: f64) -> Outcome<'a> {
+    let track = Track::new(ground, ray);
+    let (low, high) = ground.range();
+    let rise = track.step()[1];
+    let ends = ground.terrain().outside == Outside::Sky;
+
+    let reach = if ends { f64::INFINITY } else { reach_lambda(&track, reach_cells) };
+    let Some((from, to)) = over_domain(ground, &track, 0.0, reach) else {
+        return Outcome::miss(Hit::Sky, false);
+    };
+
+    let (start_x, start_z) = position(&track, from);
+    let patch = ground.patch_index(start_x, start_z);
+    let y = track.height(from);
+    if from > 0.0 && rise < 0.0 && y < low - ground.terrain().base_depth() {
+        return Outcome::miss(Hit::Sky, false);
+    }
+    if is_inside(ground, &track, from) {
+        return Outcome {
+            hit: if from > 0.0 { Hit::Side } else { Hit::Surface },
+            lambda: from,
+            patch,
+            tangent: false,
+            behind: Some(Walk::new(ground, track, from, to, false)),
+        };
+    }
+
+    let top = track.reaches(1, high);
+    // Past every height that could be crossed, but with room for rounding.
+    let floor = track.reaches(1, low - 1.0 - (high - low));
+    let (start, end) = if rise < 0.0 {
+        (from.max(top), to.min(floor))
+    } else if rise > 0.0 {
+        (from, to.min(top.max(0.0)))
+    } else {
+        (from, to)
+    };
+    let mut tangent = false;
+    if start < end && (rise < 0.0 || y < high) {
+        let mut walk = Walk::new(ground, track, start, end, true);
+        let crossing = walk.next_crossing();
+        tangent = walk.touches() > 0;
+        if let Some(crossing) = crossing {
+            return Outcome {
+                hit: Hit::Surface,
+                lambda: crossing.lambda,
+                patch: crossing.patch,
+                tangent,
+                behind: Some(walk),
+            };
+        }
+    }
+    let rises_clear = if rise > 0.0 { top <= to } else { rise == 0.0 && y >= high };
+    let hit = if ends || rises_clear { Hit::Sky } else { Hit::Far };
+    Outcome::miss(hit, tangent)
+}
+
+/// How often a ray goes into the solid or out of it between two λ: crossings of the surface,
+/// of the sides of the map, and contacts closer than rounding can tell.
+#[must_use]
+pub fn count_crossings(ground: &Ground, ray: &Ray, from: f64, to: f64) -> usize {
+    let track = Track::new(ground, ray);
+    let Some((start, end)) = over_domain(ground, &track, from, to) else {
+        return 0;
+    };
+    let inside = is_inside(ground, &track, start);
+    let mut count = usize::from(inside && start > from);
+    let mut walk = Walk::new(ground, track, start, end, !inside);
+    while walk.next_crossing().is_some() {
+        count += 1;
+    }
+    count + walk.touches() + usize::from(!walk.above() && end < to)
+}
+
+/// Whether the hit of the ray and its point at another λ lie on one sheet of the surface: no
+/// crossing lies between them other than the hit itself. A point somewhat behind the surface, but
+/// not through to the other side of the ground, is on the same sheet.
+#[must_use]
+pub fn is_same_sheet(ground: &Ground, ray: &Ray, reach_cells: f64, other: f64) -> bool {
+    let outcome = first_entry(ground, ray, reach_cells);
+    let Some(walk) = outcome.behind else {
+        return false;
+    };
+    if !other.is_finite() || other < 0.0 {
+        return false;
+    }
+    if other <= outcome.lambda {
+        // Nothing is crossed before the first hit; a contact would be taken for a crossing.
+        return !outcome.tangent;
+    }
+    let track = Track::new(ground, ray);
+    match over_domain(ground, &track, outcome.lambda, other) {
+        Some((_, end)) if end >= other => {
+            let mut walk = walk.until(other);
+            walk.next_crossing().is_none() && walk.touches() == 0
+        }
+        _ => false,
+    }
+}
+
+/// λ at which a track is `reach_cells` away from the eye.
+fn reach_lambda(track: &Track, reach_cells: f64) -> f64 {
+    let [dx, _, dz] = track.step();
+    reach_cells / dx.abs().max(dz.abs())
+}
+
+/// The part of (from, to) over which a track is over the domain.
+fn over_domain(ground: &Ground, track: &Track, from: f64, to: f64) -> Option<(f64, f64)> {
+    let mut part = (from, to);
+    for (axis, (low, high)) in [0, 2].into_iter().zip(ground.domain()) {
+        let place = track.at(0.0)[axis];
+        if track.step()[axis] == 0.0 {
+            if place < low || place >= high {
+                return None;
+            }
+            continue;
+        }
+        let (a, b) = (track.reaches(axis, low), track.reaches(axis, high));
+        part = (part.0.max(a.min(b)), part.1.min(a.max(b)));
+    }
+    (part.0 < part.1).then_some(part)
+}
+
+fn position(track: &Track, lambda: f64) -> (f64, f64) {
+    let [px, _, pz] = track.at(lambda);
+    (px, pz)
+}
+
+/// Whether y < surface at λ.
+fn is_inside(ground: &Ground, track: &Track, lambda: f64) -> bool {
+    let [px, y, pz] = track.at(lambda);
+    let patch = ground.patch_index(px, pz);
+    let local = |p: f64, index: i64| (p - index as f64).clamp(0.0, 1.0);
+    let height = ground.patch(patch).height(local(px, patch.0), local(pz, patch.1));
+    y < height.y
+}

@@ -105,8 +105,9 @@ impl Geometry {
                     screen.center.x + (half(screen.lines) - 0.5) * pitch.y,
                     screen.center.y - (half(screen.columns) - 0.5) * pitch.x,
                 ),
-            per_line: -axes.y_axis * pitch.y,
-            per_column: axes.z_axis * pitch.x,
+            // A single line or column is never left: its increment has no register to fit.
+            per_line: if screen.lines > 1 { -axes.y_axis * pitch.y } else { DVec3::ZERO },
+            per_column: if screen.columns > 1 { axes.z_axis * pitch.x } else { DVec3::ZERO },
         };
         let mut geometry = Self {
             eye: camera.position + craft * camera.offset,

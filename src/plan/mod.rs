@@ -10,8 +10,7 @@ pub mod units;
 use glam::DVec3;
 
 use crate::scene::{
-    Deformation, Kernel, KernelShape, Outside, Scene, Screen, StepperMode, Surface, Terrain,
-    WordSize,
+    Deformation, KernelShape, Outside, Scene, Screen, StepperMode, Surface, Terrain, WordSize,
 };
 use crate::word::{Class, Fixed, Register};
 use geometry::Geometry;
@@ -237,8 +236,11 @@ impl Plan {
     }
 }
 
-/// Whether weights other than the hat's can differ from it at this width.
-pub(crate) fn kernel_is_hat(kernel: &Kernel, weight_width: u32) -> bool {
+/// Whether the kernel's weights are the hat's in every bit, in stock registers of `words` or in the
+/// scene's own formats.
+pub(crate) fn kernel_is_hat(scene: &Scene, words: WordClass) -> bool {
+    let kernel = &scene.kernel;
+    let weight_width = if scene.formats.is_empty() { words.width } else { 64 };
     match kernel.deformation {
         Deformation::None => kernel.shape == KernelShape::Hat,
         Deformation::Blend { weight_shift } => {
@@ -255,7 +257,7 @@ fn terrain_needs(scene: &Scene, terrain: &Terrain, walk: &WalkPlan) -> Fitted {
     Fitted {
         divider: !walk.from_eye,
         pyramid: scene.stepper.mode == StepperMode::Skipping,
-        kernel_rom: !constant && !kernel_is_hat(&scene.kernel, walk.words.width),
+        kernel_rom: !constant && !kernel_is_hat(scene, walk.words),
         slope_scale: !constant && (terrain.cell.x != unit || terrain.cell.y != unit),
         light: scene.light.ambient < 1.0,
         idle: false,

@@ -118,7 +118,7 @@ impl WalkPlan {
         let direction = libm::exp2(f64::from(fineness) - f64::from(words.ground_point));
         if direction > geometry.finest_angle / 64.0 {
             return Err(format!(
-                "the rounding of a step turns the ray by up to 1/{:.0} pixel, more than 1/64",
+                "the rounding of a step is 1/{:.0} pixel, more than 1/64",
                 geometry.finest_angle / direction
             ));
         }
@@ -132,6 +132,11 @@ impl WalkPlan {
         // The relief and its slopes (kernel slopes are at most 2) need room in the height words.
         while (highest - lowest) / unit * 8.0 > limit {
             unit *= 2.0;
+        }
+        let narrowest = terrain.cell.min_element();
+        let steepest = ((highest - lowest) * 2.25).max(unit) / narrowest;
+        if steepest > limit {
+            return Err(format!("slopes reach {steepest:.0}, the registers hold {limit:.0}"));
         }
         let scale = HeightScale { datum: lowest, unit };
         let lengths = DVec3::new(terrain.cell.x, unit, terrain.cell.y);
@@ -181,8 +186,8 @@ impl WalkPlan {
         Ok(Self {
             words,
             words_why: format!(
-                "positions reach {extreme:.0} of {limit:.0} cells, a step's rounding turns the \
-                 ray by at most 1/{:.0} pixel",
+                "positions reach {extreme:.0} of {limit:.0} cells, a step's \
+                 rounding is 1/{:.0} pixel",
                 geometry.finest_angle / direction
             ),
             scale,

@@ -124,7 +124,7 @@ impl<W: World> Describe<'_, W> {
             Surface::Terrain(terrain) => terrain.range().0 == terrain.range().1,
             Surface::Plane(_) => false,
         };
-        let hat = kernel_is_hat(kernel, plan.words().width);
+        let hat = kernel_is_hat(self.scene, plan.words());
         let kernel_why = if constant {
             "every node has one height: any weights give it".to_owned()
         } else if kernel.shape == KernelShape::Hat && kernel.deformation != Deformation::Stretch {
@@ -202,7 +202,7 @@ impl<W: World> Describe<'_, W> {
                     "diffuse light needs the normal".into()
                 },
                 &[R::Normal, R::Shade],
-                "nine products and a table read per pixel",
+                "ten products and a table read per pixel",
             ),
             self.unit("ramp", true, true, "colour over height".into(), &[R::Ramp, R::Channel], ""),
         ]
@@ -227,8 +227,8 @@ impl<W: World> Describe<'_, W> {
             without("stepper", "all steps of all rays"),
             without("pyramid", "its memory"),
             without("kernel_rom", "its tables"),
-            without("interpolator", "three lerps and two slopes per pixel"),
-            without("light", "nine products and a table read per pixel"),
+            without("interpolator", "five lerps and two slopes per pixel"),
+            without("light", "ten products and a table read per pixel"),
             self.unit(
                 "checker",
                 true,

@@ -60,6 +60,8 @@ impl Coefficients {
         let largest = |value: &dyn Fn(f64, f64) -> f64| {
             corners.iter().map(|&(l, c)| value(l, c)).fold(0.0, f64::max)
         };
+        // Between two pixels on either side of zero an increment is at most twice the larger one,
+        // which the registers hold beside the sign.
         let view_exponent = normalising(largest(&|l, c| view.at(l, c).abs().max_element()));
         // A plane seen edge-on (F = 0) has no denominator: nothing is met.
         let per_f = if f == 0.0 { 0.0 } else { 1.0 / f };

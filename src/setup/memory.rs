@@ -54,7 +54,7 @@ impl<W: Open> Memory<W> {
             return Ok(None);
         };
         let heights = heights(world, terrain, walk)?;
-        let form = form(&scene.kernel, plan, heights.nodes());
+        let form = form(scene, plan, heights.nodes());
         let radius = i32::from(form == Form::Stretch);
         let pyramid = plan.fitted.pyramid.then(|| Arc::new(Pyramid::new(&heights, radius)));
         let rom = match form {
@@ -101,7 +101,8 @@ fn heights<W: Open>(
 }
 
 /// The smallest form that gives the kernel's bits; the full machine's form where all is fitted.
-fn form<T: Word>(kernel: &Kernel, plan: &Plan, nodes: &[T]) -> Form {
+fn form<T: Word>(scene: &Scene, plan: &Plan, nodes: &[T]) -> Form {
+    let kernel = &scene.kernel;
     let constant = nodes.iter().all(|node| *node == nodes[0]);
     match kernel.deformation {
         // Every form is exact on a constant map; the hat's needs no ROM.
@@ -112,7 +113,7 @@ fn form<T: Word>(kernel: &Kernel, plan: &Plan, nodes: &[T]) -> Form {
             Form::Blend(if kernel.shape == KernelShape::Hat { 63 } else { 0 })
         }
         Deformation::Blend { weight_shift } if plan.full => Form::Blend(weight_shift.min(63)),
-        _ if kernel_is_hat(kernel, plan.words().width) => Form::Hat,
+        _ if kernel_is_hat(scene, plan.words()) => Form::Hat,
         Deformation::None => Form::Plain,
         Deformation::Blend { weight_shift } => Form::Blend(weight_shift),
     }

@@ -63,8 +63,16 @@ pub fn entry(register: Register) -> Entry {
         R::Weight => row("kernel ROM", "kernel weight", "1", "12, 16", "½ ulp + (13)"),
         R::WeightSlope => row("kernel ROM", "its derivative", "1/cell", "12, 16", "½ ulp + (13)"),
         R::Normal => row("shader", "normal, scaled below one", "1", "23", "½ ulp"),
-        R::Shade => row("shader", "ambient plus diffuse light", "1", "24, 25", "2^-10 (24)"),
-        R::Ramp => row("shader", "place on the ramp", "segments", "26", "3 ulp of height"),
+        R::Shade => {
+            row("shader", "ambient plus diffuse light", "1", "24, 25", "2^-10 + 6 ulp (24)")
+        }
+        R::Ramp => row(
+            "shader",
+            "place on the ramp",
+            "segments",
+            "26",
+            "segments + 1 ulp, plus the height's",
+        ),
         R::Channel => row("shader", "colour channel", "0..=255", "26, 27", "1 level"),
     }
 }

@@ -80,6 +80,7 @@ pub struct Explanation {
 /// A register as one world has it.
 #[derive(Clone, Debug)]
 struct Reading {
+    unit: &'static str,
     register: Register,
     what: String,
     raw: Option<i64>,
@@ -89,6 +90,7 @@ struct Reading {
 /// What one world says of the pixel.
 #[derive(Clone, Debug)]
 struct Trace {
+    unit: &'static str,
     hit: Hit,
     steps: u32,
     work: Work,
@@ -98,9 +100,14 @@ struct Trace {
 }
 
 impl Trace {
+    /// The unit that drives the readings that follow.
+    fn unit(&mut self, unit: &'static str) {
+        self.unit = unit;
+    }
+
     fn read(&mut self, register: Register, what: impl Into<String>, word: impl Readout) {
         let (raw, value) = (word.raw(), word.value());
-        self.readings.push(Reading { register, what: what.into(), raw, value });
+        self.readings.push(Reading { unit: self.unit, register, what: what.into(), raw, value });
     }
 
     fn place<W: Complete>(&mut self, what: &str, place: Place<W>) {
@@ -149,6 +156,7 @@ impl Walk<'_> {
         }
         processor.run_line(&mut line);
         let mut trace = Trace {
+            unit: "projector",
             hit: line.hit[0],
             steps: line.steps[0],
             work: line.work[0],
@@ -164,6 +172,7 @@ impl Walk<'_> {
         if setup.divider.is_some() {
             trace.read(Register::Denominator, "denominator", line.denominator[0]);
             if entered.entry[0] == Entry::Met {
+                trace.unit("divider");
                 trace.read(Register::GroundX, "entry, x", entered.ground_x[0]);
                 trace.read(Register::GroundZ, "entry, z", entered.ground_z[0]);
             }
@@ -173,6 +182,7 @@ impl Walk<'_> {
             Back::Plane(shader) => {
                 if line.entry[0] == Entry::Met {
                     let site = Site::pixel(self.line, self.column);
+                    trace.unit("shader");
                     let contrast = shader.contrast(line.denominator[0], site);
                     trace.read(Register::Shade, "contrast of the squares", contrast);
                 }
@@ -199,6 +209,7 @@ impl Walk<'_> {
         } else {
             Place { x: entered.ground_x[0], y: stepper.top, z: entered.ground_z[0] }
         };
+        trace.unit("stepper");
         trace.place("start of the ray", place);
         trace.read(Register::DGroundX, "step, x", step.x);
         trace.read(Register::DRayY, "step, y", step.y);
@@ -213,6 +224,7 @@ impl Walk<'_> {
         let (x, z) = (line.ground_x[0], line.ground_z[0]);
         trace.read(Register::GroundX, "hit, x", x);
         trace.read(Register::GroundZ, "hit, z", z);
+        trace.unit("interpolator");
         self.interpolation(units, x, z, trace);
         trace.read(Register::Surface, "surface height", line.surface[0]);
         trace.read(Register::SlopeX, "slope, x", line.slope_x[0]);
@@ -304,6 +316,7 @@ pub fn explain(
     let oracle = engine::oracle(scene, plan);
     let sighting = oracle.pixel(line.into(), column.into());
     let closed = Closed {
+        scene,
         plan,
         coefficients: Coefficients::new(plan),
         direction: oracle.direction(line.into(), column.into()),
@@ -318,7 +331,7 @@ pub fn explain(
             let real_value = real.value(&reading.what);
             let entry = table::entry(reading.register);
             Row {
-                unit: entry.unit,
+                unit: reading.unit,
                 what: reading.what.clone(),
                 register: reading.register.name(),
                 format: format.map_or_else(|| "f64".into(), |format| format.to_string()),
@@ -350,6 +363,7 @@ pub fn explain(
 
 /// Closed forms of a pixel's registers.
 struct Closed<'a> {
+    scene: &'a Scene,
     plan: &'a Plan,
     coefficients: Coefficients,
     direction: DVec3,
@@ -358,6 +372,19 @@ struct Closed<'a> {
 }
 
 impl Closed<'_> {
+    fn ramp(&self, top: f64) -> f64 {
+        let Ground::Terrain(walk) = &self.plan.ground else { return 0.0 };
+        let height = walk.scale.to_register(self.sighting.point.y);
+        let segments = (self.scene.color.ramp.len() - 1) as f64;
+        if top == 0.0 { 0.0 } else { height / top * segments }
+    }
+
+    fn light(&self) -> f64 {
+        let light = &self.scene.light;
+        let diffuse = self.sighting.normal.dot(light.direction).max(0.0);
+        light.ambient + (1.0 - light.ambient) * diffuse
+    }
+
     fn value(&self, what: &str) -> Option<f64> {
         match &self.plan.ground {
             Ground::Terrain(walk) => {
@@ -383,6 +410,8 @@ impl Closed<'_> {
                     "hit, x" => met.then(|| self.sighting.point.x / walk.lengths.x),
                     "hit, z" => met.then(|| self.sighting.point.z / walk.lengths.z),
                     "surface height" => met.then(|| walk.scale.to_register(self.sighting.point.y)),
+                    "place on the ramp" if met => Some(self.ramp(walk.top)),
+                    "light" if met => Some(self.light()),
                     "slope, x" => slope(0),
                     "slope, z" => slope(2),
                     _ => None,

@@ -9,7 +9,8 @@
 //!   centre weight is implicit (equation 17).
 //!
 //! Each lerp rounds its exact product once, to nearest, so it stays within its nodes; constant
-//! maps are exact under every kernel, and tilted ones under the hat.
+//! maps are exact under every kernel, and under the hat tilted ones are within the two roundings:
+//! exact wherever the products are whole bits.
 //!
 //! | wire in | wire out |
 //! |---|---|

@@ -13,7 +13,7 @@
 //! |---|---|
 //! | `view_*`, `entry`, `ground_x`, `ground_z` | `hit`, `ground_x`, `ground_z`, `steps`, `work` |
 //!
-//! *Named outcomes*: `Side` when the sample before the hit lies outside the map; `Sky` when the
+//! *Named outcomes*: `Side` when the last clear place, after the halvings, lies outside the map; `Sky` when the
 //! ray is out of the map and receding, above the highest node and rising, or outside the map,
 //! under its base and falling; `Far` when the last index is reached.
 //! *Never*: wraps a position (proved at set-up for the last index and the largest jump), passes a

@@ -8,11 +8,13 @@
 /// remainder and adds or subtracts the denominator by the remainder's sign; the quotient bit is
 /// one where the new remainder is not negative.
 ///
-/// `denominator` is positive; magnitudes are such that `denominator · 2^bits` and
-/// `|numerator| · 2^shift` stay below 2^126.
-pub fn non_restoring(numerator: i128, denominator: i128, shift: u32, bits: u32) -> Option<i128> {
+/// A negative `shift` appends zeros to the denominator instead. `denominator` is positive;
+/// magnitudes are such that `denominator · 2^(bits - shift)` and `|numerator| · 2^shift` stay below
+/// 2^126.
+pub fn non_restoring(numerator: i128, denominator: i128, shift: i32, bits: u32) -> Option<i128> {
     debug_assert!(denominator > 0);
-    let biased = (numerator << shift) + (denominator << (bits - 1));
+    let (numerator, denominator) = aligned(numerator, denominator, shift);
+    let biased = numerator + (denominator << (bits - 1));
     if biased < 0 || biased >= denominator << bits {
         return None;
     }
@@ -25,4 +27,16 @@ pub fn non_restoring(numerator: i128, denominator: i128, shift: u32, bits: u32) 
         quotient = (quotient << 1) | i128::from(remainder >= 0);
     }
     Some(quotient - (1 << (bits - 1)))
+}
+
+/// The result of [`non_restoring`] by the host's own division.
+pub fn direct(numerator: i128, denominator: i128, shift: i32, bits: u32) -> Option<i128> {
+    let (numerator, denominator) = aligned(numerator, denominator, shift);
+    let limit = denominator << (bits - 1);
+    (-limit <= numerator && numerator < limit).then(|| numerator.div_euclid(denominator))
+}
+
+/// Numerator and denominator with the ratio's power of two in one of them.
+fn aligned(numerator: i128, denominator: i128, shift: i32) -> (i128, i128) {
+    if shift >= 0 { (numerator << shift, denominator) } else { (numerator, denominator << -shift) }
 }

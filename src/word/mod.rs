@@ -165,7 +165,7 @@ pub trait Multiply<By: Word>: Word {
 /// Exponent and range of a ratio `numerator / denominator · 2^exponent`.
 #[derive(Clone, Copy, Debug)]
 pub struct Ratio<F> {
-    /// Power of two on the ratio; `exponent` plus the quotient's fraction bits is not negative.
+    /// Power of two on the ratio.
     pub exponent: i32,
     /// Quotients q with `-2^range <= q < 2^range` are in range.
     pub range: u32,

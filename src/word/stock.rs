@@ -89,7 +89,7 @@ macro_rules! stock_words {
                     // Adding 2^places - 1 to a negative value turns the floor into truncation.
                     let places = places.min($int::BITS - 1);
                     let sign = self.bits() >> ($int::BITS - 1);
-                    Self::of(self.bits().wrapping_add(sign & ((1 << places) - 1)) >> places)
+                    Self::of(self.bits().wrapping_add(sign & ((1 as $int) << places).wrapping_sub(1)) >> places)
                 }
                 #[inline(always)]
                 fn shift_left(self, places: u32) -> Self {
@@ -268,28 +268,30 @@ stock_world! {
     Wide "wide", View64 Ground64 Height64 Weight64 Tone64
 }
 
-/// `numerator · 2^shift / denominator` of a ratio whose quotient has `point` bits.
-fn shift_of(ratio: Ratio<()>, point: u32) -> u32 {
-    (ratio.exponent + point as i32) as u32
+/// Shift and quotient bits of a ratio whose quotient has `point` fraction bits.
+#[inline(always)]
+fn stages(ratio: Ratio<()>, point: u32) -> (i32, u32) {
+    (ratio.exponent + point as i32, ratio.range + point + 1)
 }
 
 impl Divide<Ground32> for View32 {
     fn divide_array(self, denominator: Self, ratio: Ratio<()>, _: Site) -> Option<Ground32> {
-        array::non_restoring(
-            self.bits().into(),
-            denominator.bits().into(),
-            shift_of(ratio, Ground32::POINT),
-            ratio.range + Ground32::POINT + 1,
-        )
-        .map(|quotient| Ground32::of(quotient as i32))
+        let (shift, bits) = stages(ratio, Ground32::POINT);
+        array::non_restoring(self.bits().into(), denominator.bits().into(), shift, bits)
+            .map(|quotient| Ground32::of(quotient as i32))
     }
 
     #[inline(always)]
     fn divide_direct(self, denominator: Self, ratio: Ratio<()>, _: Site) -> Option<Ground32> {
-        // |numerator| < 2^31 and shift < 31, so both sides of the range check fit in 64 bits.
+        let (shift, bits) = stages(ratio, Ground32::POINT);
+        if !(0..=31).contains(&shift) {
+            return array::direct(self.bits().into(), denominator.bits().into(), shift, bits)
+                .map(|quotient| Ground32::of(quotient as i32));
+        }
+        // |numerator| <= 2^31 and shift <= 31; denominator < 2^31 and bits <= 32: 64 bits do.
         let denominator = i64::from(denominator.bits());
-        let numerator = i64::from(self.bits()) << shift_of(ratio, Ground32::POINT);
-        let limit = denominator << (ratio.range + Ground32::POINT);
+        let numerator = i64::from(self.bits()) << shift;
+        let limit = denominator << (bits - 1);
         (-limit <= numerator && numerator < limit)
             .then(|| Ground32::of(numerator.div_euclid(denominator) as i32))
     }
@@ -297,21 +299,15 @@ impl Divide<Ground32> for View32 {
 
 impl Divide<Ground64> for View64 {
     fn divide_array(self, denominator: Self, ratio: Ratio<()>, _: Site) -> Option<Ground64> {
-        array::non_restoring(
-            self.bits().into(),
-            denominator.bits().into(),
-            shift_of(ratio, Ground64::POINT),
-            ratio.range + Ground64::POINT + 1,
-        )
-        .map(|quotient| Ground64::of(quotient as i64))
+        let (shift, bits) = stages(ratio, Ground64::POINT);
+        array::non_restoring(self.bits().into(), denominator.bits().into(), shift, bits)
+            .map(|quotient| Ground64::of(quotient as i64))
     }
 
     #[inline(always)]
     fn divide_direct(self, denominator: Self, ratio: Ratio<()>, _: Site) -> Option<Ground64> {
-        let denominator = i128::from(denominator.bits());
-        let numerator = i128::from(self.bits()) << shift_of(ratio, Ground64::POINT);
-        let limit = denominator << (ratio.range + Ground64::POINT);
-        (-limit <= numerator && numerator < limit)
-            .then(|| Ground64::of(numerator.div_euclid(denominator) as i64))
+        let (shift, bits) = stages(ratio, Ground64::POINT);
+        array::direct(self.bits().into(), denominator.bits().into(), shift, bits)
+            .map(|quotient| Ground64::of(quotient as i64))
     }
 }

@@ -229,12 +229,7 @@ impl Divide<SweepWord> for SweepWord {
             ratio.exponent + point as i32 + denominator.point() as i32 - self.point() as i32;
         let bits = ratio.range + point + 1;
         let overflowed = self.overflowed || denominator.overflowed;
-        let quotient = if shift >= 0 {
-            array::non_restoring(self.bits(), denominator.bits(), shift as u32, bits)
-        } else {
-            // A coarse quotient: the denominator is shifted instead.
-            array::non_restoring(self.bits(), denominator.bits() << -shift, 0, bits)
-        };
+        let quotient = array::non_restoring(self.bits(), denominator.bits(), shift, bits);
         quotient.map(|quotient| ratio.format.word(quotient, overflowed))
     }
 }

@@ -3,13 +3,16 @@
 #![deny(clippy::float_arithmetic)]
 
 pub mod enter;
+pub mod heights;
+pub mod march;
 
+use fearless_simd::{Level, Simd as _, dispatch};
 use rayon::prelude::*;
 
 use crate::frame::Frame;
 use crate::plan::Plan;
 use crate::readout::FrameBuilder;
-use crate::setup::Setup;
+use crate::setup::{Back, Setup};
 use crate::unit::Line;
 use crate::unit::divider::Method;
 use crate::word::Complete;
@@ -19,15 +22,32 @@ use enter::Enterable;
 /// between sky and ground.
 const BAND: u32 = 16;
 
-/// Draws one line on wires that hold all columns.
+/// Draws one line on wires that hold all columns, at the widest SIMD level of the processor it runs
+/// on.
 pub fn run_line<W: Complete + Enterable>(setup: &Setup<W>, number: u32, line: &mut Line<W>) {
+    let level = Level::new();
+    dispatch!(level, simd => simd.vectorize(
+        #[inline(always)]
+        || run_units(setup, number, line)
+    ));
+}
+
+#[inline(always)]
+fn run_units<W: Complete + Enterable>(setup: &Setup<W>, number: u32, line: &mut Line<W>) {
     line.number = number;
     let start = enter::line_start(&setup.projector, number);
     enter::fill(&setup.projector, &start, line);
     if let Some(divider) = &setup.divider {
         divider.run(line, Method::Direct);
     }
-    setup.run_back(line);
+    match &setup.back {
+        Back::Terrain(units) => {
+            march::run(&units.stepper, &units.interpolator, line);
+            units.interpolator.run(line);
+            units.shader.run(line);
+        }
+        Back::Plane(shader) => shader.run(line),
+    }
 }
 
 /// Draws a whole frame on all threads.

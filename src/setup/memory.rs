@@ -108,10 +108,9 @@ fn form<T: Word>(scene: &Scene, plan: &Plan, nodes: &[T]) -> Form {
         // Every form is exact on a constant map; the hat's needs no ROM.
         _ if constant && !plan.full => Form::Hat,
         Deformation::Stretch => Form::Stretch,
-        // The general datapath: a shift by zero is the kernel, one by the width the hat.
-        Deformation::None if plan.full => {
-            Form::Blend(if kernel.shape == KernelShape::Hat { 63 } else { 0 })
-        }
+        // The general datapath: a shift by the width is the hat, one by zero the kernel.
+        _ if plan.full && kernel.shape == KernelShape::Hat => Form::Blend(63),
+        Deformation::None if plan.full => Form::Blend(0),
         Deformation::Blend { weight_shift } if plan.full => Form::Blend(weight_shift.min(63)),
         _ if kernel_is_hat(scene, plan.words()) => Form::Hat,
         Deformation::None => Form::Plain,

@@ -82,16 +82,32 @@ impl<W: Interpolating> Interpolator<W> {
     /// Weight of the lower node of an axis at a fraction within the cell.
     #[inline(always)]
     pub fn weight(&self, fraction: W::Ground, site: Site) -> W::Weight {
-        let site = site.at(Register::Weight);
-        let hat = || self.one - fraction.rescale(0, self.weight_format, site);
         match (&self.form, &self.rom) {
             (Form::Blend(shift), Some(rom)) => {
-                let hat = hat();
-                hat + (rom.weight(rom.entry(fraction)) - hat).shift_toward_zero(*shift)
+                self.blend(fraction, rom.weight(rom.entry(fraction)), *shift, site)
             }
             (Form::Plain, Some(rom)) => rom.weight(rom.entry(fraction)),
-            _ => hat(),
+            _ => self.hat(fraction, site),
         }
+    }
+
+    /// The hat's weight.
+    #[inline(always)]
+    pub fn hat(&self, fraction: W::Ground, site: Site) -> W::Weight {
+        self.one - fraction.rescale(0, self.weight_format, site.at(Register::Weight))
+    }
+
+    /// The hat's weight plus the kernel's difference to it shifted right (equation 16).
+    #[inline(always)]
+    pub fn blend(
+        &self,
+        fraction: W::Ground,
+        kernel: W::Weight,
+        shift: u32,
+        site: Site,
+    ) -> W::Weight {
+        let hat = self.hat(fraction, site);
+        hat + (kernel - hat).shift_toward_zero(shift)
     }
 
     /// Weight and slope of the lower node of an axis.
@@ -244,6 +260,19 @@ fn lerp<H: Multiply<T>, T: Word>(from: H, to: H, weight: T, site: Site) -> H {
     from + (to - from).multiply(weight, site.at(Register::Surface))
 }
 
+/// The height between nodes h1 to h4 (equation 14).
+#[inline(always)]
+pub fn mix<H: Multiply<T>, T: Word>(
+    [h1, h2, h3, h4]: [H; 4],
+    weight_x: T,
+    weight_z: T,
+    site: Site,
+) -> H {
+    let west = lerp(h2, h1, weight_z, site);
+    let east = lerp(h4, h3, weight_z, site.step(site.operation ^ 1));
+    lerp(east, west, weight_x, site.step(site.operation ^ 4))
+}
+
 /// `h0 + (h₋ − h0)·w₋ + (h₊ − h0)·w₊`, one rounding.
 #[inline(always)]
 fn three<H: Multiply<T>, T: Word>(nodes: [H; 3], weights: [T; 2], site: Site) -> H {
@@ -276,11 +305,8 @@ impl<W: Interpolating> SurfaceUnit<W> for Interpolator<W> {
             let site = site.step(site.operation ^ 4).at(Register::Surface);
             return three(along_z, stencil.weights_x.weights, site);
         }
-        let [h1, h2, h3, h4] = self.nodes(x, z);
         let weight_z = self.weight(z.fraction(), site);
         let weight_x = self.weight(x.fraction(), site.step(site.operation ^ 1));
-        let west = lerp(h2, h1, weight_z, site);
-        let east = lerp(h4, h3, weight_z, site.step(site.operation ^ 1));
-        lerp(east, west, weight_x, site.step(site.operation ^ 4))
+        mix(self.nodes(x, z), weight_x, weight_z, site)
     }
 }

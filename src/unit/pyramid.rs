@@ -16,17 +16,26 @@ use super::height_memory::{Edge, HeightMemory};
 /// Bounds of all levels, finest first.
 #[derive(Clone, Debug)]
 pub struct Pyramid<T> {
-    levels: Vec<Level<T>>,
+    levels: [Level; LEVELS],
+    top: u32,
+    /// Bounds of all levels, one after the other.
+    bounds: Vec<T>,
+    /// Per cell of the map, the highest of the nodes that its surface depends on.
+    cells: Vec<T>,
     edge: Edge,
     columns: i32,
     rows: i32,
 }
 
-#[derive(Clone, Debug)]
-struct Level<T> {
+/// Most levels: blocks of 2^20 cells, more than any map.
+const LEVELS: usize = 32;
+
+/// Where the bounds of a level are.
+#[derive(Clone, Copy, Debug, Default)]
+struct Level {
+    offset: i32,
     columns: i32,
     rows: i32,
-    bounds: Vec<T>,
 }
 
 /// How the blocks of one axis and level gather the blocks around them.
@@ -74,12 +83,16 @@ impl<T: Copy + PartialOrd> Pyramid<T> {
         let (columns, rows, edge) = (heights.columns(), heights.rows(), heights.edge());
         let mut level = 0;
         // Nodes b·2^m − r ..= (b+1)·2^m + r of each block.
-        let mut maxima = finest(heights, r);
+        let cells = finest(heights, r);
+        let mut maxima = cells.clone();
         let (mut width, mut height) = (columns, rows);
-        let mut levels = Vec::new();
+        let mut levels = [Level::default(); LEVELS];
+        let mut bounds = Vec::new();
         loop {
             let (x, z) = (Axis::new(columns, level, edge), Axis::new(rows, level, edge));
-            levels.push(gather(&maxima, width as usize, &x, &z));
+            levels[level as usize] =
+                Level { offset: bounds.len() as i32, columns: x.stored, rows: z.stored };
+            gather(&maxima, width as usize, &x, &z, &mut bounds);
             let size = 1 << (level + 1);
             let enough = match edge {
                 Edge::Ends | Edge::Clamps => width == 1 && height == 1,
@@ -93,17 +106,17 @@ impl<T: Copy + PartialOrd> Pyramid<T> {
             maxima = halve(&maxima, width as usize, height as usize);
             (width, height) = (w, h);
         }
-        Self { levels, edge, columns, rows }
+        Self { levels, top: level, bounds, cells, edge, columns, rows }
     }
 
     /// Highest level.
     pub fn top(&self) -> u32 {
-        self.levels.len() as u32 - 1
+        self.top
     }
 
     /// Bounds stored in all levels.
     pub fn len(&self) -> usize {
-        self.levels.iter().map(|level| level.bounds.len()).sum()
+        self.bounds.len()
     }
 
     /// Never: a map has at least one node.
@@ -111,11 +124,23 @@ impl<T: Copy + PartialOrd> Pyramid<T> {
         self.len() == 0
     }
 
+    /// A bound of the surface in the cell at a column and row address of the height memory.
+    #[inline(always)]
+    pub fn cell(&self, column: usize, row: usize) -> T {
+        self.cells[row * self.columns as usize + column]
+    }
+
     /// The bound for a ray in cell (i, j) that jumps at most 2^level cells per axis; `None` where
     /// it cannot reach the map.
     #[inline(always)]
     pub fn bound(&self, level: u32, i: i32, j: i32) -> Option<T> {
-        let at = &self.levels[level as usize];
+        self.address(level, i, j).map(|address| self.bounds[address])
+    }
+
+    /// Where that bound is stored.
+    #[inline(always)]
+    pub fn address(&self, level: u32, i: i32, j: i32) -> Option<usize> {
+        let at = self.levels[level as usize % LEVELS];
         let (i, j) = match self.edge {
             Edge::Ends => ((i >> level) + 1, (j >> level) + 1),
             Edge::Clamps => {
@@ -123,11 +148,14 @@ impl<T: Copy + PartialOrd> Pyramid<T> {
             }
             Edge::Wraps => (i.rem_euclid(self.columns) >> level, j.rem_euclid(self.rows) >> level),
         };
-        if (i as u32) < at.columns as u32 && (j as u32) < at.rows as u32 {
-            Some(at.bounds[j as usize * at.columns as usize + i as usize])
-        } else {
-            None
-        }
+        let stored = ((i as u32) < at.columns as u32) & ((j as u32) < at.rows as u32);
+        stored.then(|| (at.offset + j * at.columns + i) as usize)
+    }
+
+    /// The bound at an address.
+    #[inline(always)]
+    pub fn at(&self, address: usize) -> T {
+        self.bounds[address]
     }
 }
 
@@ -187,7 +215,13 @@ fn halve<T: Copy + PartialOrd>(maxima: &[T], width: usize, height: usize) -> Vec
 }
 
 /// The bounds of one level from its blocks' maxima.
-fn gather<T: Copy + PartialOrd>(maxima: &[T], width: usize, x: &Axis, z: &Axis) -> Level<T> {
+fn gather<T: Copy + PartialOrd>(
+    maxima: &[T],
+    width: usize,
+    x: &Axis,
+    z: &Axis,
+    bounds: &mut Vec<T>,
+) {
     let stored = x.stored as usize;
     // Every stored block has a node in reach, so the fold's start is always replaced or equalled.
     let mut across = Vec::with_capacity(z.blocks as usize * stored);
@@ -202,7 +236,7 @@ fn gather<T: Copy + PartialOrd>(maxima: &[T], width: usize, x: &Axis, z: &Axis) 
             across.extend((lead + width as i32 - 2..x.stored).map(at));
         }
     }
-    let mut bounds: Vec<T> = Vec::with_capacity(z.stored as usize * stored);
+    bounds.reserve(z.stored as usize * stored);
     for at in 0..z.stored {
         let start = bounds.len();
         for row in z.reach(at) {
@@ -216,5 +250,4 @@ fn gather<T: Copy + PartialOrd>(maxima: &[T], width: usize, x: &Axis, z: &Axis) 
             }
         }
     }
-    Level { columns: x.stored, rows: z.stored, bounds }
 }

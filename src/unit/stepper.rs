@@ -94,18 +94,24 @@ pub struct Place<W: World> {
 }
 
 impl<W: World> Place<W> {
+    /// The place a step further.
     #[inline(always)]
-    fn plus(self, step: Self) -> Self {
+    #[must_use]
+    pub fn plus(self, step: Self) -> Self {
         Self { x: self.x + step.x, y: self.y + step.y, z: self.z + step.z }
     }
 
+    /// The place a step before.
     #[inline(always)]
-    fn minus(self, step: Self) -> Self {
+    #[must_use]
+    pub fn minus(self, step: Self) -> Self {
         Self { x: self.x - step.x, y: self.y - step.y, z: self.z - step.z }
     }
 
+    /// A step halved so many times.
     #[inline(always)]
-    fn halved(self, times: u32) -> Self {
+    #[must_use]
+    pub fn halved(self, times: u32) -> Self {
         Self {
             x: self.x.shift_floor(times),
             y: self.y.shift_floor(times),
@@ -113,8 +119,10 @@ impl<W: World> Place<W> {
         }
     }
 
+    /// A step doubled so many times.
     #[inline(always)]
-    fn doubled(self, times: u32) -> Self {
+    #[must_use]
+    pub fn doubled(self, times: u32) -> Self {
         Self {
             x: self.x.shift_left(times),
             y: self.y.shift_left(times),
@@ -125,13 +133,19 @@ impl<W: World> Place<W> {
 
 /// Directions of a ray, decided once: where it can no longer meet the map.
 #[derive(Clone, Copy, Debug)]
-struct Heading {
-    west: bool,
-    east: bool,
-    north: bool,
-    south: bool,
-    rises: bool,
-    falls: bool,
+pub struct Heading {
+    /// Not towards greater x.
+    pub west: bool,
+    /// Not towards smaller x.
+    pub east: bool,
+    /// Not towards greater z.
+    pub north: bool,
+    /// Not towards smaller z.
+    pub south: bool,
+    /// Not downwards.
+    pub rises: bool,
+    /// Not upwards.
+    pub falls: bool,
 }
 
 /// The end of a walk.
@@ -269,7 +283,7 @@ impl<W: World> Stepper<W> {
     }
 
     /// Halves the step between the last clear place and the hit.
-    fn refine(
+    pub fn refine(
         &self,
         hit: Place<W>,
         step: Place<W>,
@@ -299,8 +313,9 @@ impl<W: World> Stepper<W> {
         }
     }
 
+    /// Where a ray of this step is heading.
     #[inline(always)]
-    fn heading(&self, step: Place<W>) -> Heading {
+    pub fn heading(&self, step: Place<W>) -> Heading {
         Heading {
             west: step.x.sign() <= 0,
             east: step.x.sign() >= 0,
@@ -313,7 +328,7 @@ impl<W: World> Stepper<W> {
 
     /// Whether the ray can no longer meet the surface.
     #[inline(always)]
-    fn is_over(&self, place: Place<W>, heading: Heading) -> bool {
+    pub fn is_over(&self, place: Place<W>, heading: Heading) -> bool {
         if heading.rises && place.y >= self.top {
             return true;
         }

@@ -86,8 +86,10 @@ macro_rules! stock_words {
                 }
                 #[inline(always)]
                 fn shift_toward_zero(self, places: u32) -> Self {
+                    if places >= $int::BITS {
+                        return Self::of(0);
+                    }
                     // Adding 2^places - 1 to a negative value turns the floor into truncation.
-                    let places = places.min($int::BITS - 1);
                     let sign = self.bits() >> ($int::BITS - 1);
                     Self::of(self.bits().wrapping_add(sign & ((1 as $int) << places).wrapping_sub(1)) >> places)
                 }
@@ -121,7 +123,7 @@ macro_rules! stock_words {
                 }
                 #[inline(always)]
                 fn nearest(self) -> i32 {
-                    Self::of(self.bits().wrapping_add(1 << (Self::POINT - 1))).cell()
+                    self.cell() + (self.bits() >> (Self::POINT - 1) & 1) as i32
                 }
                 #[inline(always)]
                 fn fraction_from_midpoint(self) -> Self {
@@ -154,9 +156,10 @@ macro_rules! stock_words {
                     let places = Self::POINT as i32 - To::POINT as i32 - exponent;
                     let bits = self.bits();
                     To::of(if places > 0 {
-                        // Half a bit after the shift cannot overflow, before it could.
+                        // The bit below the last one rounds; half a bit added before the shift
+                        // could overflow.
                         let places = (places as u32).min($int::BITS) - 1;
-                        (bits >> places).wrapping_add(1) >> 1
+                        (bits >> places >> 1) + (bits >> places & 1)
                     } else {
                         bits << (-places) as u32
                     })

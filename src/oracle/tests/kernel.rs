@@ -77,5 +77,6 @@ fn stretched_weights_are_the_known_ones() {
             assert!(w.a >= 0.0 && w.b >= 0.0 && w.a + w.b <= 1.0, "{shape:?}");
             assert!(w.da <= 0.0 && w.db >= 0.0);
         }
+        assert!((at(shape, 0.5).b - 0.5).abs() < 1e-15, "{shape:?} patches meet");
     }
 }

@@ -71,6 +71,7 @@ pub(super) fn terrain(map: HeightMap, outside: Outside) -> Terrain {
         scale: 0.03,
         outside,
         base_depth: Some(2.0),
+        nodata: crate::scene::NoData::Hole,
     }
 }
 
@@ -171,7 +172,9 @@ impl Naive<'_> {
             }
             Deformation::Stretch => {
                 let i = (x + 0.5).floor() as i64;
-                let g = |t: f64| 2.0 / 3.0 * self.shape(2.0 / 3.0 * t);
+                // Scaled so that neighbouring patches meet half-way.
+                let alpha = 0.75 / self.shape(1.0 / 3.0);
+                let g = |t: f64| alpha * 2.0 / 3.0 * self.shape(2.0 / 3.0 * t);
                 let (before, after) = (g(x - (i - 1) as f64), g(x - (i + 1) as f64));
                 vec![(i - 1, before), (i, 1.0 - before - after), (i + 1, after)]
             }

@@ -1,0 +1,87 @@
+//! Surface heights of many places at a time: the interpolator's arithmetic in loops over lanes.
+
+use super::march::LANES;
+use crate::unit::interpolator::{Form, Interpolator, mix};
+use crate::unit::stepper::SurfaceUnit;
+use crate::word::{Cell, Interpolating, Site, World};
+
+/// Heights at places over the map; whatever stands in lanes that are not asked for is ignored.
+#[inline(always)]
+pub fn heights<W: Interpolating>(
+    unit: &Interpolator<W>,
+    x: &[W::Ground; LANES],
+    z: &[W::Ground; LANES],
+    sites: &[Site; LANES],
+) -> [W::Height; LANES] {
+    let memory = &*unit.heights;
+    let first = memory.at(0, 0);
+    let mut out = [first; LANES];
+    if unit.form == Form::Stretch {
+        for lane in 0..LANES {
+            out[lane] = unit.height(x[lane], z[lane], sites[lane]);
+        }
+        return out;
+    }
+    // Loads from map and ROM, lane by lane.
+    let mut nodes = [[first; LANES]; 4];
+    let mut kernel_x = [unit.one; LANES];
+    let mut kernel_z = [unit.one; LANES];
+    for lane in 0..LANES {
+        let [h1, h2, h3, h4] = unit.nodes(x[lane], z[lane]);
+        nodes[0][lane] = h1;
+        nodes[1][lane] = h2;
+        nodes[2][lane] = h3;
+        nodes[3][lane] = h4;
+    }
+    if let Some(rom) = &unit.rom {
+        for lane in 0..LANES {
+            kernel_x[lane] = rom.weight(rom.entry(x[lane].fraction()));
+            kernel_z[lane] = rom.weight(rom.entry(z[lane].fraction()));
+        }
+    }
+    let (weights_x, weights_z) = match unit.form {
+        Form::Plain if unit.rom.is_some() => (kernel_x, kernel_z),
+        Form::Blend(shift) if unit.rom.is_some() => {
+            (blend(unit, x, &kernel_x, shift, sites, 1), blend(unit, z, &kernel_z, shift, sites, 0))
+        }
+        _ => (hat(unit, x, sites, 1), hat(unit, z, sites, 0)),
+    };
+    for lane in 0..LANES {
+        let four = [nodes[0][lane], nodes[1][lane], nodes[2][lane], nodes[3][lane]];
+        out[lane] = mix(four, weights_x[lane], weights_z[lane], sites[lane]);
+    }
+    out
+}
+
+/// `axis` sets the operations of the two axes apart, as in the unit.
+#[inline(always)]
+fn blend<W: Interpolating>(
+    unit: &Interpolator<W>,
+    place: &[W::Ground; LANES],
+    kernel: &[W::Weight; LANES],
+    shift: u32,
+    sites: &[Site; LANES],
+    axis: u32,
+) -> [W::Weight; LANES] {
+    let mut out = [unit.one; LANES];
+    for lane in 0..LANES {
+        let site = sites[lane].step(sites[lane].operation ^ axis);
+        out[lane] = unit.blend(place[lane].fraction(), kernel[lane], shift, site);
+    }
+    out
+}
+
+#[inline(always)]
+fn hat<W: Interpolating>(
+    unit: &Interpolator<W>,
+    place: &[<W as World>::Ground; LANES],
+    sites: &[Site; LANES],
+    axis: u32,
+) -> [W::Weight; LANES] {
+    let mut out = [unit.one; LANES];
+    for lane in 0..LANES {
+        let site = sites[lane].step(sites[lane].operation ^ axis);
+        out[lane] = unit.hat(place[lane].fraction(), site);
+    }
+    out
+}

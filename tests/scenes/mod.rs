@@ -1,0 +1,129 @@
+//! Scenes built by hand, for tests of single units.
+#![allow(dead_code, reason = "every test file uses its own part")]
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use terraline::plan::Plan;
+use terraline::scene::{
+    Angles, Attitude, Camera, Colors, Deformation, Extent, Halvings, HeightMap, Kernel,
+    KernelShape, Light, Machine, NoData, Outside, Plane, Scene, Screen, Stepper, StepperMode,
+    Surface, Terrain, WordSize,
+};
+use terraline::setup::{Back, Memory, Setup, TerrainUnits};
+use terraline::unit::interpolator::Interpolator;
+use terraline::word::Complete;
+
+pub const SHAPES: [KernelShape; 4] =
+    [KernelShape::Cosine, KernelShape::Parabola, KernelShape::Exponential, KernelShape::Hat];
+
+pub const DEFORMATIONS: [Deformation; 7] = [
+    Deformation::None,
+    Deformation::Stretch,
+    Deformation::Blend { weight_shift: 0 },
+    Deformation::Blend { weight_shift: 1 },
+    Deformation::Blend { weight_shift: 2 },
+    Deformation::Blend { weight_shift: 9 },
+    Deformation::Blend { weight_shift: 40 },
+];
+
+/// Every kernel under every deformation.
+pub fn kernels() -> impl Iterator<Item = Kernel> {
+    SHAPES.into_iter().flat_map(|shape| {
+        DEFORMATIONS.map(|deformation| Kernel { shape, deformation, table: 1024 })
+    })
+}
+
+/// Samples are heights in scene units, cells are unit squares.
+pub fn terrain(columns: usize, rows: usize, samples: Vec<f32>) -> Terrain {
+    Terrain {
+        source: "by hand".into(),
+        map: Arc::new(HeightMap::new(columns, rows, samples)),
+        cell: DVec2::ONE,
+        offset: 0.0,
+        scale: 1.0,
+        outside: Outside::Sky,
+        nodata: NoData::Hole,
+        base_depth: None,
+    }
+}
+
+/// The same map with something else beyond its edge.
+pub fn with_outside(terrain: Terrain, outside: Outside) -> Terrain {
+    Terrain { outside, ..terrain }
+}
+
+/// A small screen that looks down at 45°.
+pub fn scene(surface: Surface, eye: DVec3, words: WordSize) -> Scene {
+    Scene {
+        name: "by hand".into(),
+        unit_m: 1.0,
+        seed: 1,
+        camera: Camera {
+            position: eye,
+            offset: DVec3::ZERO,
+            attitude: Attitude::Directions { forward: DVec3::new(1.0, -1.0, 0.5), up: DVec3::Y },
+        },
+        screens: vec![Screen {
+            name: "front".into(),
+            columns: 16,
+            lines: 12,
+            extent: Extent::FieldOfView(1.0),
+            center: DVec2::ZERO,
+            mount: Angles::default(),
+        }],
+        surface,
+        kernel: Kernel {
+            shape: KernelShape::Cosine,
+            deformation: Deformation::Blend { weight_shift: 2 },
+            table: 1024,
+        },
+        stepper: Stepper {
+            mode: StepperMode::Skipping,
+            fineness: 3,
+            halvings: Halvings::Footprint,
+        },
+        light: Light { direction: DVec3::Y, ambient: 0.3 },
+        color: Colors {
+            ramp: vec![[0, 0, 255], [255, 0, 0]],
+            sky: [1, 2, 3],
+            far: [4, 5, 6],
+            side: [7, 8, 9],
+            checker: [[200, 200, 190], [70, 90, 70]],
+        },
+        machine: Machine { clock_mhz: 100.0, memory_latency: 2, words },
+        formats: vec![],
+    }
+}
+
+/// A checkered horizontal plane at height 0.
+pub fn plane_scene(eye: DVec3, checker: f64, words: WordSize) -> Scene {
+    scene(Surface::Plane(Plane { normal: DVec3::Y, distance: 0.0, checker }), eye, words)
+}
+
+/// A height map seen from well above it.
+pub fn terrain_scene(terrain: Terrain, kernel: Kernel, words: WordSize) -> Scene {
+    let eye = DVec3::new(4.0, terrain.range().1 + 20.0, 4.0);
+    Scene { kernel, ..scene(Surface::Terrain(terrain), eye, words) }
+}
+
+/// The machine of a scene, everything fitted or pruned.
+pub fn machine<W: Complete>(world: W, scene: &Scene, full: bool) -> (Plan, Setup<W>) {
+    let plan = Plan::new(scene, None, full).expect("a scene that can be planned");
+    let memory = Memory::new(&world, scene, &plan).expect("heights that fit");
+    let setup = Setup::new(world, scene, &plan, memory.as_ref()).expect("registers that fit");
+    (plan, setup)
+}
+
+/// The units behind the divider of a height map's machine.
+pub fn units<W: Complete>(world: W, scene: &Scene, full: bool) -> Box<TerrainUnits<W>> {
+    match machine(world, scene, full).1.back {
+        Back::Terrain(units) => units,
+        Back::Plane(_) => panic!("not a height map"),
+    }
+}
+
+/// Its interpolator.
+pub fn interpolator<W: Complete>(world: W, scene: &Scene, full: bool) -> Interpolator<W> {
+    units(world, scene, full).interpolator
+}

@@ -1,4 +1,44 @@
-//! Terraline.
+//! Terraline emulates a dedicated raster processor for flight-simulator terrain, in fixed point,
+//! and validates it against floating point.
+//!
+//! Data flows one way:
+//!
+//! ```text
+//! scene -> plan -> set-up -> engine -> frame -> sinks and studies
+//! ```
+//!
+//! - [`scene`]: what the user asked for, in scene units and `f64`.
+//! - [`plan`]: which units the scene needs, which word size holds it, and the proof of its ranges.
+//! - [`word`]: number worlds, from `f64` to fixed point of any width.
+//! - [`setup`]: coefficients, tables and maps quantised into registers.
+//! - [`unit`]: one file per hardware unit; each works on the wires of one scan line.
+//! - [`processor`] and [`fast`]: the two engines, equal in every bit; [`clock`] counts cycles.
+//! - [`oracle`]: every pixel in closed form, sharing no code with what it checks.
+//! - [`study`], [`sink`], [`cli`]: errors and costs, files, commands.
+//!
+//! Draw a frame and ask what it is worth:
+//!
+//! ```
+//! use terraline::engine::{FixedWorld, draw_by_lines};
+//! use terraline::plan::Plan;
+//! use terraline::setup::{Memory, Setup};
+//! use terraline::study::error::{ErrorReport, Sample, pixels};
+//! use terraline::word::stock::Narrow;
+//!
+//! let scene = terraline::scene::load(Some("overview"), &["screen.size=[64, 48]".into()])?;
+//! let plan = Plan::new(&scene, None, false)?;
+//! let memory = Memory::new(&Narrow, &scene, &plan)?;
+//! let setup = Setup::new(Narrow, &scene, &plan, memory.as_ref())?;
+//! let frame = draw_by_lines(&setup, &plan, false, |_| {});
+//! assert_eq!(frame.color.len(), 64 * 48);
+//!
+//! let sample = Sample::strips(&plan, 16, scene.seed);
+//! let errors = pixels(&scene, &plan, &FixedWorld::Narrow(Narrow), &sample)?;
+//! let report = ErrorReport::new(&sample, &errors, scene.unit_m);
+//! assert!(report.total_px.median < 1.0 / 32.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
 pub mod cli;
 pub mod clock;
 pub mod engine;

@@ -201,7 +201,10 @@ impl Measure<'_> {
         let cycles = if all {
             clock.cycles()
         } else {
-            (clock.cycles() as f64 / pixels * frame_pixels).round() as u64
+            // The pipeline fills once, however many lines are counted.
+            let fill: u64 = clock.occupancy().map(|(stage, _)| u64::from(stage.latency)).sum();
+            let flowing = (clock.cycles() - fill) as f64;
+            fill + (flowing / pixels * frame_pixels).round() as u64
         };
         let additions_per_pixel: f64 = units.iter().map(|unit| unit.additions_per_pixel).sum();
         Cost {

@@ -11,6 +11,10 @@
 //! Blocks outside the map but next to it carry real bounds; farther ones have none: there is
 //! nothing to meet.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
 use super::height_memory::{Edge, HeightMemory};
 
 /// Bounds of all levels, finest first.
@@ -75,7 +79,7 @@ impl Axis {
     }
 }
 
-impl<T: Copy + PartialOrd> Pyramid<T> {
+impl<T: Copy + PartialOrd + Send + Sync> Pyramid<T> {
     /// The pyramid of a height memory for kernels of radius `1 + r` nodes, built by maxima of
     /// maxima. Levels go up to the first block that covers the map; where the map repeats, blocks
     /// stay within its size.
@@ -84,7 +88,7 @@ impl<T: Copy + PartialOrd> Pyramid<T> {
         let mut level = 0;
         // Nodes b·2^m − r ..= (b+1)·2^m + r of each block.
         let cells = finest(heights, r);
-        let mut maxima = cells.clone();
+        let mut maxima = None;
         let (mut width, mut height) = (columns, rows);
         let mut levels = [Level::default(); LEVELS];
         let mut bounds = Vec::new();
@@ -92,7 +96,8 @@ impl<T: Copy + PartialOrd> Pyramid<T> {
             let (x, z) = (Axis::new(columns, level, edge), Axis::new(rows, level, edge));
             levels[level as usize] =
                 Level { offset: bounds.len() as i32, columns: x.stored, rows: z.stored };
-            gather(&maxima, width as usize, &x, &z, &mut bounds);
+            let finer = maxima.as_deref().unwrap_or(&cells[..]);
+            gather(finer, width as usize, &x, &z, &mut bounds);
             let size = 1 << (level + 1);
             let enough = match edge {
                 Edge::Ends | Edge::Clamps => width == 1 && height == 1,
@@ -103,7 +108,7 @@ impl<T: Copy + PartialOrd> Pyramid<T> {
             }
             level += 1;
             let (w, h) = ((width + 1) / 2, (height + 1) / 2);
-            maxima = halve(&maxima, width as usize, height as usize);
+            maxima = Some(halve(finer, width as usize, height as usize));
             (width, height) = (w, h);
         }
         Self { levels, top: level, bounds, cells, edge, columns, rows }
@@ -164,58 +169,80 @@ fn higher<T: Copy + PartialOrd>(a: T, b: T) -> T {
 }
 
 /// Per cell, the highest of nodes i−r ..= i+1+r and j−r ..= j+1+r.
-fn finest<T: Copy + PartialOrd>(heights: &HeightMemory<T>, r: i32) -> Vec<T> {
-    let (columns, rows) = (heights.columns(), heights.rows());
-    let width = columns as usize;
-    let mut across = Vec::with_capacity(heights.nodes().len());
-    for row in heights.nodes().chunks_exact(width) {
-        let inner = r as usize..width.saturating_sub(1 + r as usize).max(r as usize);
-        let at = |i: i32| {
-            (i - r..=i + 1 + r).map(|i| row[heights.column(i)]).reduce(higher).unwrap_or(row[0])
-        };
-        across.extend((0..inner.start.min(width)).map(|i| at(i as i32)));
-        if r == 0 {
-            across.extend(row.windows(2).take(inner.len()).map(|w| higher(w[0], w[1])));
-        } else {
-            across.extend(
-                row.windows(4)
-                    .take(inner.len())
-                    .map(|w| higher(higher(w[0], w[1]), higher(w[2], w[3]))),
-            );
-        }
-        across.extend((inner.end.max(inner.start.min(width))..width).map(|i| at(i as i32)));
-    }
-    let mut out = Vec::with_capacity(across.len());
-    for j in 0..rows {
-        let start = out.len();
-        let first = heights.row(j - r) * width;
-        out.extend_from_slice(&across[first..first + width]);
-        for k in j - r + 1..=j + 1 + r {
-            let from = heights.row(k) * width;
-            for (o, &a) in out[start..].iter_mut().zip(&across[from..from + width]) {
-                *o = higher(*o, a);
+fn finest<T: Copy + PartialOrd + Send + Sync>(heights: &HeightMemory<T>, r: i32) -> Vec<T> {
+    let nodes = heights.nodes();
+    let width = heights.columns() as usize;
+    let mut out = vec![nodes[0]; nodes.len()];
+    out.par_chunks_exact_mut(width).enumerate().for_each_init(Vec::new, |tallest, (j, out)| {
+        let rows = (-r..=1 + r).map(|offset| {
+            let from = heights.row(j as i32 + offset) * width;
+            &nodes[from..from + width]
+        });
+        highest_of(rows, tallest);
+        out.copy_from_slice(tallest);
+        for offset in (-r..=1 + r).filter(|&offset| offset != 0) {
+            let inside = shifted(width, offset);
+            raise(&mut out[inside.clone()], &tallest[offset_by(&inside, offset)]);
+            // Columns whose neighbour is beyond the edge.
+            for i in (0..inside.start).chain(inside.end..width) {
+                out[i] = higher(out[i], tallest[heights.column(i as i32 + offset)]);
             }
         }
-    }
+    });
     out
+}
+
+/// Column by column, the highest of some rows.
+fn highest_of<'a, T: Copy + PartialOrd + 'a>(
+    rows: impl IntoIterator<Item = &'a [T]>,
+    tallest: &mut Vec<T>,
+) {
+    tallest.clear();
+    for row in rows {
+        if tallest.is_empty() {
+            tallest.extend_from_slice(row);
+        } else {
+            raise(tallest, row);
+        }
+    }
+}
+
+/// Indices i with both i and i + offset in `0..size`.
+fn shifted(size: usize, offset: i32) -> Range<usize> {
+    let size = size as i32;
+    let (start, end) = ((-offset).clamp(0, size), (size - offset).clamp(0, size));
+    start as usize..end.max(start) as usize
+}
+
+fn offset_by(range: &Range<usize>, offset: i32) -> Range<usize> {
+    let at = |i: usize| (i as i32 + offset) as usize;
+    if range.is_empty() { 0..0 } else { at(range.start)..at(range.end) }
+}
+
+/// Element by element, the higher of two rows.
+fn raise<T: Copy + PartialOrd>(row: &mut [T], by: &[T]) {
+    for (bound, &other) in row.iter_mut().zip(by) {
+        *bound = higher(*bound, other);
+    }
 }
 
 /// Maxima of 2×2 blocks; the last one of an odd size stands alone.
-fn halve<T: Copy + PartialOrd>(maxima: &[T], width: usize, height: usize) -> Vec<T> {
-    let mut out = Vec::with_capacity(width.div_ceil(2) * height.div_ceil(2));
-    for pair in maxima.chunks(2 * width) {
+fn halve<T: Copy + PartialOrd + Send + Sync>(maxima: &[T], width: usize, height: usize) -> Vec<T> {
+    let half = width.div_ceil(2);
+    let mut out = vec![maxima[0]; half * height.div_ceil(2)];
+    out.par_chunks_exact_mut(half).zip(maxima.par_chunks(2 * width)).for_each(|(out, pair)| {
         let (above, below) = pair.split_at(width);
         let below = if below.is_empty() { above } else { below };
-        out.extend(above.chunks(2).zip(below.chunks(2)).map(|(a, b)| {
+        for (o, (a, b)) in out.iter_mut().zip(above.chunks(2).zip(below.chunks(2))) {
             let last = a.len() - 1;
-            higher(higher(a[0], a[last]), higher(b[0], b[last]))
-        }));
-    }
+            *o = higher(higher(a[0], a[last]), higher(b[0], b[last]));
+        }
+    });
     out
 }
 
-/// The bounds of one level from its blocks' maxima.
-fn gather<T: Copy + PartialOrd>(
+/// Appends the bounds of one level, made from its blocks' maxima.
+fn gather<T: Copy + PartialOrd + Send + Sync>(
     maxima: &[T],
     width: usize,
     x: &Axis,
@@ -223,31 +250,22 @@ fn gather<T: Copy + PartialOrd>(
     bounds: &mut Vec<T>,
 ) {
     let stored = x.stored as usize;
-    // Every stored block has a node in reach, so the fold's start is always replaced or equalled.
-    let mut across = Vec::with_capacity(z.blocks as usize * stored);
-    for row in maxima.chunks_exact(width) {
-        let at = |at: i32| x.reach(at).map(|b| row[b]).reduce(higher).unwrap_or(row[0]);
-        if x.edge == Edge::Wraps || width < 3 {
-            across.extend((0..x.stored).map(at));
-        } else {
-            let lead = 1 - x.first;
-            across.extend((0..lead).map(at));
-            across.extend(row.windows(3).map(|w| higher(higher(w[0], w[1]), w[2])));
-            across.extend((lead + width as i32 - 2..x.stored).map(at));
+    let from = bounds.len();
+    bounds.resize(from + z.stored as usize * stored, maxima[0]);
+    let rows = bounds[from..].par_chunks_exact_mut(stored).enumerate();
+    rows.for_each_init(Vec::new, |tallest, (at, out)| {
+        // Every stored block has a block with nodes in reach.
+        let blocks = z.reach(at as i32).map(|row| &maxima[row * width..(row + 1) * width]);
+        highest_of(blocks, tallest);
+        let lead = (1 - x.first) as usize;
+        let plain = x.edge != Edge::Wraps && width >= 3;
+        let middle = if plain { lead..lead + width - 2 } else { 0..0 };
+        for (o, w) in out[middle.clone()].iter_mut().zip(tallest.windows(3)) {
+            *o = higher(higher(w[0], w[1]), w[2]);
         }
-    }
-    bounds.reserve(z.stored as usize * stored);
-    for at in 0..z.stored {
-        let start = bounds.len();
-        for row in z.reach(at) {
-            let from = &across[row * stored..(row + 1) * stored];
-            if bounds.len() == start {
-                bounds.extend_from_slice(from);
-            } else {
-                for (bound, &other) in bounds[start..].iter_mut().zip(from) {
-                    *bound = higher(*bound, other);
-                }
-            }
+        for i in (0..middle.start).chain(middle.end..stored) {
+            let reached = x.reach(i as i32).map(|b| tallest[b]).reduce(higher);
+            out[i] = reached.unwrap_or(tallest[0]);
         }
-    }
+    });
 }

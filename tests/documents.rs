@@ -1,0 +1,61 @@
+//! Documents that are generated from the code, compared with it; `UPDATE_DOCS=1` rewrites them.
+
+use std::path::Path;
+
+use terraline::setup::table;
+use terraline::word::Register;
+
+fn is_current(file: &str, text: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        std::fs::write(&path, text).unwrap();
+    }
+    let found = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        found == text,
+        "{file} is not what the code says; run `UPDATE_DOCS=1 cargo test --test documents`"
+    );
+}
+
+#[test]
+fn the_register_page_is_generated_from_the_table() {
+    is_current("docs/registers.md", &table::markdown());
+}
+
+#[test]
+fn every_register_is_on_its_page() {
+    let page = table::markdown();
+    for register in Register::ALL {
+        assert!(page.contains(&format!("| `{register}` |")), "{register}");
+    }
+}
+
+#[test]
+fn every_unit_has_a_page() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for entry in std::fs::read_dir(root.join("src/unit")).unwrap() {
+        let path = entry.unwrap().path();
+        let stem = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        // The module's root and the wires between the units are no units.
+        if stem != "mod" && stem != "line" {
+            assert!(root.join(format!("docs/units/{stem}.md")).exists(), "docs/units/{stem}.md");
+        }
+    }
+}
+
+#[test]
+fn equations_that_the_code_cites_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = std::fs::read_to_string(root.join("docs/mathematics.md")).unwrap();
+    let mut cited = 0;
+    for &register in Register::ALL {
+        for number in table::entry(register).equations.split(", ") {
+            assert!(
+                page.contains(&format!("\\tag{{{number}}}")) || page.contains(&format!("({number})")),
+                "equation {number} of {register}"
+            );
+            cited += 1;
+        }
+    }
+    assert!(cited >= Register::ALL.len());
+}

@@ -51,7 +51,8 @@ fn equations_that_the_code_cites_exist() {
     for &register in Register::ALL {
         for number in table::entry(register).equations.split(", ") {
             assert!(
-                page.contains(&format!("\\tag{{{number}}}")) || page.contains(&format!("({number})")),
+                page.contains(&format!("\\tag{{{number}}}"))
+                    || page.contains(&format!("({number})")),
                 "equation {number} of {register}"
             );
             cited += 1;

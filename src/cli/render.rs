@@ -181,6 +181,14 @@ impl Render {
         for path in [&self.output, &self.buffers].into_iter().flatten() {
             sink::check_writable(path)?;
         }
+        if let (Some(output), Some(buffers)) = (&self.output, &self.buffers)
+            && std::path::absolute(output).ok() == std::path::absolute(buffers).ok()
+        {
+            return Err(Stop::BadInput(format!(
+                "--buffers {}: the picture goes to the same file; give two names",
+                buffers.display()
+            )));
+        }
         let planned = self.scene.load()?;
         let pixels = planned.plan.geometry.columns as usize * planned.plan.geometry.lines as usize;
         let buffers = self.buffers.is_some() || self.picture.needs_buffers();
@@ -191,13 +199,13 @@ impl Render {
             )));
         }
         let drawn = report::while_waiting("drawing", || self.draw(&planned, buffers))?;
+        let summary = report::while_waiting("measuring", || self.summarise(&planned, &drawn))?;
         if let Some(path) = &self.output {
             self.write_picture(path, &planned, &drawn)?;
         }
         if let Some(path) = &self.buffers {
             npz::write(path, &drawn.frame)?;
         }
-        let summary = report::while_waiting("measuring", || self.summarise(&planned, &drawn))?;
         if self.json {
             return report::json("render", Some(&planned.scene.name), &summary);
         }

@@ -291,7 +291,7 @@ impl PlanePlan {
                 return Err(PlanError::Range {
                     field: "camera.position",
                     reason: format!("the eye is {farthest:.0} squares from the origin"),
-                    remedy: "move it closer, or use machine.words = \"auto\"",
+                    remedy: "move it closer, enlarge surface.checker, or leave machine.words at auto",
                 });
             }
         };

@@ -60,6 +60,20 @@ pub struct WalkPlan {
     pub halving_bias: i32,
 }
 
+/// Why a word size does not hold a walk.
+#[derive(Debug)]
+struct Refusal {
+    field: &'static str,
+    reason: String,
+    remedy: &'static str,
+}
+
+impl From<Refusal> for PlanError {
+    fn from(Refusal { field, reason, remedy }: Refusal) -> Self {
+        Self::Range { field, reason, remedy }
+    }
+}
+
 /// Eyes less than this above the highest node start their rays at the eye: the ratio of so thin a
 /// layer would have no bits.
 const THIN_LAYER: f64 = 1.0 / 256.0;
@@ -76,19 +90,11 @@ impl WalkPlan {
         asked: WordSize,
     ) -> Result<Self, PlanError> {
         let narrow = Self::in_words(terrain, geometry, fineness, WordClass::NARROW);
-        let wide = || {
-            Self::in_words(terrain, geometry, fineness, WordClass::WIDE).map_err(|reason| {
-                PlanError::Range {
-                    field: "camera.position",
-                    reason,
-                    remedy: "move the eye closer to the map",
-                }
-            })
-        };
+        let wide = || Self::in_words(terrain, geometry, fineness, WordClass::WIDE);
         match (asked, narrow) {
-            (WordSize::Narrow, Err(reason)) => Err(PlanError::Range {
+            (WordSize::Narrow, Err(refusal)) => Err(PlanError::Range {
                 field: "machine.words",
-                reason: format!("32-bit words cannot be proved: {reason}"),
+                reason: format!("32-bit words cannot be proved: {}", refusal.reason),
                 remedy: "use words = \"auto\"",
             }),
             (WordSize::Narrow, Ok(plan)) => {
@@ -96,8 +102,8 @@ impl WalkPlan {
             }
             (WordSize::Wide, _) => Ok(Self { words_why: "asked for".into(), ..wide()? }),
             (WordSize::Auto, Ok(plan)) => Ok(plan),
-            (WordSize::Auto, Err(reason)) => {
-                Ok(Self { words_why: format!("32 bits do not do: {reason}"), ..wide()? })
+            (WordSize::Auto, Err(refusal)) => {
+                Ok(Self { words_why: format!("32 bits do not do: {}", refusal.reason), ..wide()? })
             }
         }
     }
@@ -107,7 +113,7 @@ impl WalkPlan {
         geometry: &Geometry,
         fineness: u32,
         words: WordClass,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Refusal> {
         let limit = words.ground_limit();
         let (lowest, highest) = terrain.range();
         let nodes = [terrain.map.columns() as f64, terrain.map.rows() as f64];
@@ -117,15 +123,24 @@ impl WalkPlan {
         // A direction is one rounding per step away from the view vector's.
         let direction = libm::exp2(f64::from(fineness) - f64::from(words.ground_point));
         if direction > geometry.finest_angle / 64.0 {
-            return Err(format!(
-                "the rounding of a step is 1/{:.0} pixel, more than 1/64",
-                geometry.finest_angle / direction
-            ));
+            return Err(Refusal {
+                field: "screen.fov",
+                reason: format!(
+                    "the rounding of a step is {:.2} pixel, more than 1/64",
+                    direction / geometry.finest_angle
+                ),
+                remedy: "give the screen coarser pixels, or bring it nearer to its axis",
+            });
         }
         let coefficients = f64::from(geometry.columns) + f64::from(geometry.lines);
         let drift = coefficients * libm::exp2(-1.0 - f64::from(words.view_point));
         if drift > geometry.finest_angle / 128.0 {
-            return Err("the screen has too many pixels for the view coefficients".into());
+            return Err(Refusal {
+                field: "screen.size",
+                reason: "the roundings of the view coefficients add up to more than 1/128 pixel"
+                    .into(),
+                remedy: "draw fewer or coarser pixels",
+            });
         }
 
         let mut unit = (terrain.cell.x * terrain.cell.y).sqrt();
@@ -136,7 +151,11 @@ impl WalkPlan {
         let narrowest = terrain.cell.min_element();
         let steepest = ((highest - lowest) * 2.25).max(unit) / narrowest;
         if steepest > limit {
-            return Err(format!("slopes reach {steepest:.0}, the registers hold {limit:.0}"));
+            return Err(Refusal {
+                field: "surface.height.scale",
+                reason: format!("slopes reach {steepest:.0}, the registers hold {limit:.0}"),
+                remedy: "lower it, or enlarge surface.cell",
+            });
         }
         let scale = HeightScale { datum: lowest, unit };
         let lengths = DVec3::new(terrain.cell.x, unit, terrain.cell.y);
@@ -173,12 +192,22 @@ impl WalkPlan {
             .max(start_y.abs().max(base.abs()).max(eye_y.abs()) + 2.0 * walk)
             + 2.0;
         if extreme > limit {
-            return Err(format!(
-                "positions reach {extreme:.0} cells, the registers hold {limit:.0}"
-            ));
+            // Whatever is deepest under the highest node is to blame for a deep walk.
+            let (field, remedy) = if deep > reach && -base > eye_y.abs() {
+                ("surface.base_depth", "make it smaller")
+            } else {
+                ("camera.position", "move the eye closer to the map")
+            };
+            let reason =
+                format!("positions reach {extreme:.0} cells, the registers hold {limit:.0}");
+            return Err(Refusal { field, reason, remedy });
         }
         if last >= libm::exp2(26.0) {
-            return Err(format!("a ray would take {last:.0} steps, 2^26 are counted"));
+            return Err(Refusal {
+                field: "camera.position",
+                reason: format!("a ray would take {last:.0} steps, 2^26 are counted"),
+                remedy: "move the eye closer to the map",
+            });
         }
         // Step and distance lie along one ray, so their largest components are in the ratio of
         // their lengths: 2^-k · 2^-n <= 2^e · finest_angle / 32 (equation 22).

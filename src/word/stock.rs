@@ -123,7 +123,7 @@ macro_rules! stock_words {
                 }
                 #[inline(always)]
                 fn nearest(self) -> i32 {
-                    self.cell() + (self.bits() >> (Self::POINT - 1) & 1) as i32
+                    self.cell().wrapping_add((self.bits() >> (Self::POINT - 1) & 1) as i32)
                 }
                 #[inline(always)]
                 fn fraction_from_midpoint(self) -> Self {

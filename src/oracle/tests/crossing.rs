@@ -202,7 +202,8 @@ fn hits_project_back_to_their_pixels() {
 fn crossings_are_counted_as_the_march_counts_them() {
     for kernel in kernels() {
         let terrain = terrain(rough_map(9, 7, 6), Outside::Sky);
-        let (eye, forward) = (DVec3::new(-4.0, 0.4, 6.01), DVec3::new(1.0, 0.0, -0.6));
+        // No sample of the march falls on the edge of the map.
+        let (eye, forward) = (DVec3::new(-4.003, 0.4, 6.01), DVec3::new(1.0, 0.0, -0.6));
         let oracle = oracle(&scene(Surface::Terrain(terrain.clone()), kernel, eye, forward));
         let mut dice = Dice(12);
         for _ in 0..20 {

@@ -1,0 +1,129 @@
+//! Scenes from files and from options, drawn by the program.
+
+use super::{Folder, write_map};
+
+const SMALL: [&str; 4] = ["--size", "40x30", "--sample", "4"];
+
+fn draw(folder: &Folder, scene: &str, name: &str, more: &[&str]) -> Vec<u8> {
+    let picture = format!("{name}.png");
+    let options = [&["render", scene, "-o", &picture], &SMALL[..], more].concat();
+    folder.prints(&options);
+    folder.read(&picture)
+}
+
+#[test]
+fn printed_scenes_render_as_they_are() {
+    let folder = Folder::new();
+    for name in ["overview", "flight", "valley", "plane"] {
+        let text = folder.prints(&["scenes", name]);
+        let file = format!("my-{name}.toml");
+        folder.write(&file, text);
+        let built_in = draw(&folder, name, "built-in", &["--buffers", "built-in.npz"]);
+        let from_file = draw(&folder, &file, "from-file", &["--buffers", "from-file.npz"]);
+        assert_eq!(built_in, from_file, "{name}");
+        folder.prints(&["compare", "built-in.npz", "from-file.npz", "--max-diff", "0"]);
+        let object = folder.json(&["scenes", name]);
+        assert!(object["scenes"].is_null() && object["name"] == name);
+    }
+    let listed = folder.json(&["scenes"]);
+    assert_eq!(listed["scenes"].as_array().unwrap().len(), 4);
+    assert_eq!(folder.prints(&["scenes"]).lines().count(), 4);
+}
+
+#[test]
+fn the_default_scene_is_the_overview() {
+    let folder = Folder::new();
+    folder.prints(&[&["render", "-o", "default.png"], &SMALL[..]].concat());
+    assert_eq!(folder.read("default.png"), draw(&folder, "overview", "overview", &[]));
+}
+
+#[test]
+fn whole_turns_change_nothing() {
+    let folder = Folder::new();
+    for scene in ["plane", "flight"] {
+        let set = |heading: &str, pitch: &str, roll: &str| {
+            [("heading", heading), ("pitch", pitch), ("roll", roll)]
+                .map(|(name, degrees)| format!("camera.{name}={degrees}"))
+        };
+        let drawn = |sets: [String; 3]| {
+            let options: Vec<&str> = sets.iter().flat_map(|set| ["--set", set.as_str()]).collect();
+            draw(&folder, scene, "turned", &options)
+        };
+        let reduced = drawn(set("30", "-20", "10.5"));
+        assert_eq!(reduced, drawn(set("7230", "-20", "10.5")), "{scene}");
+        assert_eq!(reduced, drawn(set("30", "-7220", "10.5")), "{scene}");
+        assert_eq!(reduced, drawn(set("-7170", "340", "-7189.5")), "{scene}");
+        assert_eq!(reduced, drawn(set("360000000030", "3600000000340.0", "10.5")), "{scene}");
+        assert_ne!(reduced, drawn(set("30", "-20", "11")), "{scene}");
+    }
+}
+
+/// A scene over a map of its own, seen from high above.
+fn scene_over(map: &str, outside: &str) -> String {
+    format!(
+        "[camera]\nposition = [3.0, 20.0, 3.0]\nforward = [0.1, -1.0, 0.2]\n\
+         [[screen]]\nsize = [40, 30]\n\
+         [[surface]]\nmap = \"{map}\"\noutside = \"{outside}\"\n\
+         height = {{ offset = 0.0, scale = 0.001 }}\n"
+    )
+}
+
+#[test]
+fn small_and_constant_maps_are_drawn() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("maps")).unwrap();
+    for (columns, rows) in [(1, 1), (1, 7), (7, 1), (2, 2), (9, 5)] {
+        for constant in [true, false] {
+            let height = |i, j| if constant { 1500 } else { (i * 700 + j * 300) as u16 };
+            write_map(&folder.path("maps/map.png"), columns, rows, height);
+            for outside in ["sky", "clamp", "wrap"] {
+                // Maps are found from the folder of the scene file.
+                folder.write("maps/scene.toml", scene_over("map.png", outside));
+                let what = format!("{columns}x{rows}, {outside}, constant {constant}");
+                if outside == "sky" && columns.min(rows) < 2 {
+                    let output = folder.run(&["render", "maps/scene.toml"]);
+                    assert_eq!(output.status.code(), Some(2), "{what}");
+                    continue;
+                }
+                let fast = draw(&folder, "maps/scene.toml", "fast", &[]);
+                let engine = ["--engine", "processor"];
+                assert_eq!(fast, draw(&folder, "maps/scene.toml", "slow", &engine), "{what}");
+                let object = folder.json(&["render", "maps/scene.toml"]);
+                let least = if outside == "sky" { 1 } else { 600 };
+                assert!(object["hits"]["surface"].as_u64() >= Some(least), "{what}: {object}");
+                assert_eq!(object["scene"], "scene");
+            }
+        }
+    }
+}
+
+#[test]
+fn formats_draw_coarse_frames() {
+    let folder = Folder::new();
+    let whole = draw(&folder, "flight", "whole", &[]);
+    let coarse = ["--format", "ground=16.4", "--format", "weight=4.6:stochastic"];
+    let fast = draw(&folder, "flight", "fast", &coarse);
+    assert_ne!(whole, fast);
+    let processor = [&coarse[..], &["--engine", "processor"]].concat();
+    assert_eq!(fast, draw(&folder, "flight", "processor", &processor));
+    let saturate = ["--format", "tone=10.4:nearest:saturate", "--engine", "processor"];
+    draw(&folder, "flight", "saturated", &saturate);
+    let narrow = ["render", "flight", "--engine", "processor", "--format", "slope_x=4.4"];
+    assert_eq!(folder.run(&narrow).status.code(), Some(2), "it follows another register");
+}
+
+#[test]
+fn overflows_are_located() {
+    let folder = Folder::new();
+    let options = ["--engine", "processor", "--format", "view=1.20", "--format", "height=6.20"];
+    let output = folder.run(&[&["render", "flight", "--json"], &SMALL[..], &options].concat());
+    if output.status.code() == Some(0) {
+        let object: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        for overflow in object["overflows"].as_array().unwrap() {
+            assert!(overflow["pixels"].as_u64() > Some(0) && overflow["register"].is_string());
+            assert!(overflow["column"].as_u64() < Some(40) && overflow["line"].as_u64() < Some(30));
+        }
+    } else {
+        assert_eq!(output.status.code(), Some(2));
+    }
+}

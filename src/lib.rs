@@ -11,7 +11,7 @@
 //! - [`plan`]: which units the scene needs, which word size holds it, and the proof of its ranges.
 //! - [`word`]: number worlds, from `f64` to fixed point of any width.
 //! - [`setup`]: coefficients, tables and maps quantised into registers.
-//! - [`unit`]: one file per hardware unit; each works on the wires of one scan line.
+//! - [`mod@unit`]: one file per hardware unit; each works on the wires of one scan line.
 //! - [`processor`] and [`fast`]: the two engines, equal in every bit; [`clock`] counts cycles.
 //! - [`oracle`]: every pixel in closed form, sharing no code with what it checks.
 //! - [`study`], [`sink`], [`cli`]: errors and costs, files, commands.

@@ -8,7 +8,7 @@ use terraline::word::Register;
 fn is_current(file: &str, text: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
     if std::env::var_os("UPDATE_DOCS").is_some() {
-        std::fs::write(&path, text).unwrap();
+        std::fs::write(&path, text).expect("docs can be written");
     }
     let found = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(

@@ -75,6 +75,7 @@ pub fn run<W: Interpolating>(stepper: &Stepper<W>, surface: &Interpolator<W>, li
                 sample(stepper, surface, pyramid, &mut lanes);
             }
         }
+        miss(stepper, &mut lanes);
         refine(stepper, surface, &mut lanes);
         finish(&lanes, line, from, to);
         from = to;
@@ -171,12 +172,14 @@ fn trial<W: World>(stepper: &Stepper<W>, pyramid: &Pyramid<W::Height>, lanes: &m
     // Loads, lane by lane; a lane out of reach of the map has no bound.
     let mut bound = [stepper.base; LANES];
     let mut free = [1; LANES];
+    let mut addresses = [0; LANES];
     for lane in 0..LANES {
-        let address = pyramid.address(lanes.level[lane], cells_x[lane], cells_z[lane]);
-        if let Some(address) = address {
-            bound[lane] = pyramid.at(address);
-            free[lane] = 0;
-        }
+        let (stored, address) = pyramid.address(lanes.level[lane], cells_x[lane], cells_z[lane]);
+        free[lane] = u32::from(!stored);
+        addresses[lane] = if stored { address } else { 0 };
+    }
+    for lane in 0..LANES {
+        bound[lane] = pyramid.at(addresses[lane]);
     }
     let over = over(stepper, lanes, &cells_x, &cells_z);
     let top = pyramid.top();
@@ -205,14 +208,6 @@ fn trial<W: World>(stepper: &Stepper<W>, pyramid: &Pyramid<W::Height>, lanes: &m
         lanes.run[lane] = if tests == 1 { run } else { lanes.run[lane] };
         lanes.samples[lane] |= tests;
         lanes.walks[lane] = goes_on & (tests ^ 1);
-    }
-    for lane in 0..LANES {
-        if over[lane] == 0 && lanes.walks[lane] + lanes.samples[lane] + lanes.hits[lane] == 0 {
-            // Ended by its last index, unless it never walked.
-            if lanes.index[lane] >= stepper.last {
-                lanes.outcome[lane] = Hit::Far;
-            }
-        }
     }
 }
 
@@ -288,12 +283,26 @@ fn sample<W: Interpolating>(
         lanes.samples[lane] = samples & (back ^ 1);
         lanes.walks[lane] |= back;
     }
+    // Few lanes are this near to the surface at once: one by one is faster than all together.
     for lane in 0..LANES {
         if near[lane] == 1 {
             let site = lanes.site[lane].step(lanes.index[lane] << 3);
             if lanes.y[lane] < surface.height(lanes.x[lane], lanes.z[lane], site) {
                 (lanes.hits[lane], lanes.samples[lane], lanes.walks[lane]) = (1, 0, 0);
             }
+        }
+    }
+}
+
+/// Outcomes of the lanes that walked and did not hit: the last index came before the ray was over.
+#[inline(always)]
+fn miss<W: World>(stepper: &Stepper<W>, lanes: &mut Lanes<W>) {
+    let (cells_x, cells_z) = cells(&lanes.x, &lanes.z);
+    let over = over(stepper, lanes, &cells_x, &cells_z);
+    for lane in 0..LANES {
+        let stopped = lanes.hits[lane] == 0 && lanes.index[lane] >= stepper.last;
+        if stopped && over[lane] == 0 {
+            lanes.outcome[lane] = Hit::Far;
         }
     }
 }

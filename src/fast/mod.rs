@@ -1,6 +1,10 @@
 //! The fast engine: the processor's frame, bit for bit, by threads, direct entry and loops that
 //! vectorise.
 #![deny(clippy::float_arithmetic)]
+#![expect(
+    clippy::needless_range_loop,
+    reason = "loops over lanes read and write several arrays at one index, and vectorise so"
+)]
 
 pub mod enter;
 pub mod heights;

@@ -11,7 +11,7 @@ use crate::scene::{Colors, Plane, Scene};
 use crate::unit::divider::Divider;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::projector::{Linear, Projector};
-use crate::unit::shader::{Flat, Light, PlaneShader, Ramp, TerrainShader};
+use crate::unit::shader::{Flat, Light, PlaneShader, Ramp, Segment, TerrainShader};
 use crate::unit::stepper::Stepper;
 use crate::word::{Dividing, Load, Open, Ratio, Register, Word};
 
@@ -248,8 +248,8 @@ pub(super) fn terrain_shader<W: Open>(
     let exponent = normalising(walk.top);
     let segments = scene.color.ramp.len() - 1;
     let gain = if walk.top == 0.0 { 0.0 } else { segments as f64 / (walk.top * power(exponent)) };
-    let segment = |pair: &[[u8; 3]]| -> Result<[(W::Tone, W::Tone); 3], SetupError> {
-        let channel = |at: usize| -> Result<(W::Tone, W::Tone), SetupError> {
+    let segment = |pair: &[[u8; 3]]| -> Result<Segment<W::Tone>, SetupError> {
+        let channel = |at: usize| -> Result<_, SetupError> {
             let (from, to) = (f64::from(pair[0][at]), f64::from(pair[1][at]));
             Ok((tone(from, Register::Channel)?, tone(to - from, Register::Channel)?))
         };

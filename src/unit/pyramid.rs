@@ -20,7 +20,7 @@ use super::height_memory::{Edge, HeightMemory};
 /// Bounds of all levels, finest first.
 #[derive(Clone, Debug)]
 pub struct Pyramid<T> {
-    levels: [Level; LEVELS],
+    levels: Levels,
     top: u32,
     /// Bounds of all levels, one after the other.
     bounds: Vec<T>,
@@ -34,12 +34,12 @@ pub struct Pyramid<T> {
 /// Most levels: blocks of 2^20 cells, more than any map.
 const LEVELS: usize = 32;
 
-/// Where the bounds of a level are.
+/// Where the bounds of each level are.
 #[derive(Clone, Copy, Debug, Default)]
-struct Level {
-    offset: i32,
-    columns: i32,
-    rows: i32,
+struct Levels {
+    offset: [i32; LEVELS],
+    columns: [i32; LEVELS],
+    rows: [i32; LEVELS],
 }
 
 /// How the blocks of one axis and level gather the blocks around them.
@@ -90,12 +90,13 @@ impl<T: Copy + PartialOrd + Send + Sync> Pyramid<T> {
         let cells = finest(heights, r);
         let mut maxima = None;
         let (mut width, mut height) = (columns, rows);
-        let mut levels = [Level::default(); LEVELS];
+        let mut levels = Levels::default();
         let mut bounds = Vec::new();
         loop {
             let (x, z) = (Axis::new(columns, level, edge), Axis::new(rows, level, edge));
-            levels[level as usize] =
-                Level { offset: bounds.len() as i32, columns: x.stored, rows: z.stored };
+            levels.offset[level as usize] = bounds.len() as i32;
+            levels.columns[level as usize] = x.stored;
+            levels.rows[level as usize] = z.stored;
             let finer = maxima.as_deref().unwrap_or(&cells[..]);
             gather(finer, width as usize, &x, &z, &mut bounds);
             let size = 1 << (level + 1);
@@ -139,28 +140,28 @@ impl<T: Copy + PartialOrd + Send + Sync> Pyramid<T> {
     /// it cannot reach the map.
     #[inline(always)]
     pub fn bound(&self, level: u32, i: i32, j: i32) -> Option<T> {
-        self.address(level, i, j).map(|address| self.bounds[address])
+        let (stored, address) = self.address(level, i, j);
+        stored.then(|| self.bounds[address as usize])
     }
 
-    /// Where that bound is stored.
+    /// Whether there is such a bound, and where.
     #[inline(always)]
-    pub fn address(&self, level: u32, i: i32, j: i32) -> Option<usize> {
-        let at = self.levels[level as usize % LEVELS];
+    pub fn address(&self, level: u32, i: i32, j: i32) -> (bool, i32) {
+        let at = level as usize % LEVELS;
+        let (columns, rows) = (self.levels.columns[at], self.levels.rows[at]);
         let (i, j) = match self.edge {
             Edge::Ends => ((i >> level) + 1, (j >> level) + 1),
-            Edge::Clamps => {
-                ((i >> level).clamp(0, at.columns - 1), (j >> level).clamp(0, at.rows - 1))
-            }
+            Edge::Clamps => ((i >> level).clamp(0, columns - 1), (j >> level).clamp(0, rows - 1)),
             Edge::Wraps => (i.rem_euclid(self.columns) >> level, j.rem_euclid(self.rows) >> level),
         };
-        let stored = ((i as u32) < at.columns as u32) & ((j as u32) < at.rows as u32);
-        stored.then(|| (at.offset + j * at.columns + i) as usize)
+        let stored = ((i as u32) < columns as u32) & ((j as u32) < rows as u32);
+        (stored, self.levels.offset[at].wrapping_add(j.wrapping_mul(columns)).wrapping_add(i))
     }
 
     /// The bound at an address.
     #[inline(always)]
-    pub fn at(&self, address: usize) -> T {
-        self.bounds[address]
+    pub fn at(&self, address: i32) -> T {
+        self.bounds[address as usize]
     }
 }
 

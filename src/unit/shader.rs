@@ -69,10 +69,13 @@ pub struct Ramp<W: World> {
     /// Segments per shifted height.
     pub gain: W::Tone,
     /// Start and rise of every segment, by channel.
-    pub segments: Vec<[(W::Tone, W::Tone); 3]>,
+    pub segments: Vec<Segment<W::Tone>>,
     /// Format of the place on the ramp.
     pub format: <W::Tone as Word>::Format,
 }
+
+/// Start and rise of a ramp segment, by channel.
+pub type Segment<T> = [(T, T); 3];
 
 /// Everything the terrain shader computes for one pixel.
 #[derive(Clone, Copy, Debug)]

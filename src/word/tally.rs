@@ -35,6 +35,10 @@ fn count(change: impl FnOnce(&mut Operations)) {
     COUNTS.set(counts);
 }
 
+fn count_addition() {
+    count(|c| c.additions += 1);
+}
+
 /// Runs `work` on this thread and returns its result and the operations on tally words in it.
 pub fn counted<T>(work: impl FnOnce() -> T) -> (T, Operations) {
     let before = COUNTS.replace(Operations::default());
@@ -48,14 +52,14 @@ pub struct TallyWord<T>(T);
 
 impl<T: Word> PartialEq for TallyWord<T> {
     fn eq(&self, other: &Self) -> bool {
-        count(|c| c.additions += 1);
+        count_addition();
         self.0 == other.0
     }
 }
 
 impl<T: Word> PartialOrd for TallyWord<T> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        count(|c| c.additions += 1);
+        count_addition();
         self.0.partial_cmp(&other.0)
     }
 }
@@ -63,7 +67,7 @@ impl<T: Word> PartialOrd for TallyWord<T> {
 impl<T: Word> Add for TallyWord<T> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        count(|c| c.additions += 1);
+        count_addition();
         Self(self.0 + other.0)
     }
 }
@@ -71,7 +75,7 @@ impl<T: Word> Add for TallyWord<T> {
 impl<T: Word> Sub for TallyWord<T> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        count(|c| c.additions += 1);
+        count_addition();
         Self(self.0 - other.0)
     }
 }
@@ -79,7 +83,7 @@ impl<T: Word> Sub for TallyWord<T> {
 impl<T: Word> Neg for TallyWord<T> {
     type Output = Self;
     fn neg(self) -> Self {
-        count(|c| c.additions += 1);
+        count_addition();
         Self(-self.0)
     }
 }
@@ -107,7 +111,7 @@ impl<T: Word> Word for TallyWord<T> {
         Self(self.0.shift_left(places))
     }
     fn magnitude(self) -> Self {
-        count(|c| c.additions += 1);
+        count_addition();
         Self(self.0.magnitude())
     }
     fn sign(self) -> i32 {
@@ -140,14 +144,14 @@ impl<T: Cell> Cell for TallyWord<T> {
         Self(self.0.fraction())
     }
     fn nearest(self) -> i32 {
-        count(|c| c.additions += 1);
+        count_addition();
         self.0.nearest()
     }
     fn fraction_from_midpoint(self) -> Self {
         Self(self.0.fraction_from_midpoint())
     }
     fn entry(self, log2: u32) -> usize {
-        count(|c| c.additions += 1);
+        count_addition();
         self.0.entry(log2)
     }
 }

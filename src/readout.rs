@@ -54,7 +54,13 @@ impl<'a> Reader<'a> {
             }
         };
         let view = self.plan.geometry.view.at(line.number.into(), line.column[i].into());
-        let lambda = (point - self.plan.geometry.eye).dot(view) / view.length_squared();
+        let mut away = point - self.plan.geometry.eye;
+        let mut along = view;
+        if line.hit[i] == Hit::Side {
+            // The point's height is that of the rim above the place on the side.
+            (away.y, along.y) = (0.0, 0.0);
+        }
+        let lambda = away.dot(along) / along.length_squared();
         Some(PixelReadout { lambda, point, normal })
     }
 }

@@ -1,0 +1,162 @@
+//! The cycle recurrence against a simulation that goes cycle by cycle, and costs that can be
+//! counted by hand.
+
+use terraline::clock::{Chain, Clock, LERP_LATENCY, RAY_START};
+use terraline::engine::FixedWorld;
+use terraline::plan::Plan;
+use terraline::processor::{self, Processor};
+use terraline::scene::{self, Scene};
+use terraline::setup::{Memory, Setup};
+use terraline::study::cost::{Cost, Measure};
+use terraline::study::error::Sample;
+use terraline::unit::line::Work;
+use terraline::word::stock::Narrow;
+
+fn planned(name: &str, sets: &[&str]) -> (Scene, Plan) {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    let scene = scene::load(Some(name), &sets).expect("a scene");
+    let plan = Plan::new(&scene, None, false).expect("a plan");
+    (scene, plan)
+}
+
+/// The chain of a scene and the work of its pixels in scan order.
+fn chain_and_work(name: &str, sets: &[&str]) -> (Chain, Vec<Work>) {
+    let (scene, plan) = planned(name, sets);
+    let memory = Memory::new(&Narrow, &scene, &plan).expect("memory");
+    let setup = Setup::new(Narrow, &scene, &plan, memory.as_ref()).expect("set-up");
+    let chain = Chain::new(&setup, scene.machine.memory_latency, false);
+    let mut work = Vec::new();
+    let mut line = Processor::new(&setup).wires();
+    processor::run_lines(&setup, &mut line, 0..setup.lines, |line| work.extend(&line.work));
+    (chain, work)
+}
+
+/// Completion cycles of all items, by stepping a clock and asking every unit what it can do.
+fn simulate(chain: &Chain, reads: u32, work: &[Work]) -> Vec<u64> {
+    let units = chain.stages.len();
+    let cycles = |unit: usize, item: usize| -> u64 {
+        match chain.stages[unit].name {
+            "stepper" => chain.stepper_work(work[item]).into(),
+            "interpolator" => reads.into(),
+            _ => 1,
+        }
+    };
+    // Items that each unit has taken, and the cycles in which it took them.
+    let mut taken: Vec<Vec<u64>> = vec![Vec::new(); units];
+    let mut now = 0;
+    while taken[units - 1].len() < work.len() {
+        let before: Vec<usize> = taken.iter().map(Vec::len).collect();
+        for unit in 0..units {
+            let item = before[unit];
+            if item == work.len() {
+                continue;
+            }
+            let arrived = unit == 0
+                || taken[unit - 1].get(item).is_some_and(|&at| {
+                    at + cycles(unit - 1, item) - 1 + u64::from(chain.stages[unit - 1].latency)
+                        <= now
+                });
+            let idle = item == 0 || taken[unit][item - 1] + cycles(unit, item - 1) <= now;
+            // Places are freed the cycle after the next unit takes an item.
+            let gone = if unit + 1 < units { before[unit + 1] } else { item };
+            let room = item - gone < chain.stages[unit].depth as usize;
+            if arrived && idle && room {
+                taken[unit].push(now);
+            }
+        }
+        now += 1;
+    }
+    taken[units - 1].iter().map(|at| at + 1).collect()
+}
+
+fn recurrence(chain: &Chain, work: &[Work]) -> Vec<u64> {
+    let mut clock = Clock::new(chain.clone());
+    work.iter().map(|&work| clock.take(work)).collect()
+}
+
+#[test]
+fn the_recurrence_is_what_a_cycle_by_cycle_simulation_does() {
+    for (name, reads, sets) in [
+        ("overview", 1, vec!["screen.size=[24, 18]"]),
+        ("overview", 1, vec!["screen.size=[24, 18]", "machine.memory_latency=1"]),
+        ("flight", 1, vec!["screen.size=[24, 18]", "machine.memory_latency=5"]),
+        ("valley", 4, vec!["screen.size=[24, 18]", "kernel.deformation=1"]),
+        ("plane", 1, vec!["screen.size=[24, 18]"]),
+    ] {
+        let (chain, work) = chain_and_work(name, &sets);
+        assert_eq!(work.len(), 24 * 18);
+        assert_eq!(recurrence(&chain, &work), simulate(&chain, reads, &work), "{name} {sets:?}");
+    }
+}
+
+#[test]
+fn queues_fill_and_drain() {
+    // Bursts of hard pixels among easy ones stall the units before the stepper.
+    let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]"]);
+    let hard = Work { trials: 40, samples: 30, groups: 6, halvings: 12 };
+    let work: Vec<Work> =
+        (0..300).map(|i| if i % 50 < 5 { hard } else { Work::default() }).collect();
+    let cycles = recurrence(&chain, &work);
+    assert_eq!(cycles, simulate(&chain, 1, &work));
+    let mut clock = Clock::new(chain);
+    work.iter().for_each(|&work| {
+        clock.take(work);
+    });
+    let stalled: u64 = clock.occupancy().map(|(_, occupancy)| occupancy.stalled).sum();
+    assert!(stalled > 1000 && clock.limit() == "stepper");
+}
+
+#[test]
+fn a_rays_work_is_the_sum_of_its_parts() {
+    let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]"]);
+    let memory = 2;
+    let work = Work { trials: 3, samples: 5, groups: 2, halvings: 4 };
+    let answer = memory + LERP_LATENCY;
+    let expected = RAY_START + 3 * (1 + memory) + 5 + 2 * answer + 4 * (1 + answer);
+    assert_eq!(chain.stepper_work(work), expected);
+    let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]", "kernel.deformation=1"]);
+    let expected = RAY_START + 3 * (1 + memory) + 5 * 4 + 2 * answer + 4 * (4 + answer);
+    assert_eq!(chain.stepper_work(work), expected);
+}
+
+fn cost(name: &str, sets: &[&str]) -> Cost {
+    let (scene, plan) = planned(name, sets);
+    let all = Sample::all(&plan);
+    let world = FixedWorld::of(&scene, &plan).expect("a world");
+    let measure = Measure { scene: &scene, plan: &plan, cycles: &all, operations: &all };
+    world.run(measure).expect("a cost")
+}
+
+#[test]
+fn costs_that_can_be_counted_by_hand() {
+    // A plane: per pixel one adder for the only increment along a line (level, looking east: z),
+    // and 31 + 3 additions for each of two ratios below the horizon.
+    let plane = cost("plane", &["screen.size=[64, 64]"]);
+    let unit = |name| plane.units.iter().find(|unit| unit.name == name).expect("the unit");
+    assert_eq!(unit("projector").additions_per_pixel, 63.0 / 64.0);
+    assert!(unit("divider").additions_per_pixel > 40.0);
+    // Every pixel that meets terrain costs five lerps and two slopes.
+    let valley = cost("valley", &["screen.size=[64, 64]", "camera.pitch=-80"]);
+    let interpolator = valley.units.iter().find(|u| u.name == "interpolator").expect("fitted");
+    assert_eq!(interpolator.products_per_pixel, 7.0);
+    assert_eq!(interpolator.memory_reads_per_pixel, 4.0);
+    assert_eq!(interpolator.table_reads_per_pixel, 4.0);
+    // Ray steps add, they do not multiply: the stepper's products are its interpolations', three
+    // each, at four node reads.
+    let stepper = valley.units.iter().find(|u| u.name == "stepper").expect("fitted");
+    let interpolations = stepper.table_reads_per_pixel / 2.0;
+    assert_eq!(stepper.products_per_pixel, 3.0 * interpolations);
+    assert!(valley.units.iter().all(|u| u.name != "divider"), "the eye is in the slab");
+}
+
+#[test]
+fn sampled_lines_estimate_the_frame() {
+    let (scene, plan) = planned("flight", &["screen.size=[96, 96]"]);
+    let world = FixedWorld::of(&scene, &plan).expect("a world");
+    let all = Sample::all(&plan);
+    let some = Sample::whole_lines(&plan, 48, scene.seed);
+    let measure = |cycles| Measure { scene: &scene, plan: &plan, cycles, operations: &some };
+    let exact = world.run(measure(&all)).expect("a cost").cycles as f64;
+    let scaled = world.run(measure(&some)).expect("a cost").cycles as f64;
+    assert!((scaled / exact - 1.0).abs() < 0.05, "{scaled} for {exact}");
+}

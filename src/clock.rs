@@ -12,21 +12,12 @@
 //! to the one in which the frame takes the last pixel.
 #![deny(clippy::float_arithmetic)]
 
+use crate::setup::table::{DIVIDER_ENDS, LERP_LATENCY, RAY_START, SHADER_LATENCY};
 use crate::setup::{Back, Setup};
 use crate::unit::Line;
 use crate::unit::interpolator::Form;
 use crate::unit::line::Work;
 use crate::word::{Complete, World};
-
-/// Pipeline stages of the interpolator behind its memory: ROM and blend, lerps along z, lerp along
-/// x, compare.
-pub const LERP_LATENCY: u32 = 5;
-/// Cycles to shift a view vector into a step.
-pub const RAY_START: u32 = 2;
-/// Pipeline stages of the shader: normal, squares, table, dot product, light, ramp, mix, byte.
-pub const SHADER_LATENCY: u32 = 12;
-/// Register stages of the divider besides one per quotient bit: bias, range, eye.
-pub const DIVIDER_ENDS: u32 = 3;
 
 /// One unit in the chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

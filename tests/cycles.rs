@@ -1,11 +1,12 @@
 //! The cycle recurrence against a simulation that goes cycle by cycle, and costs that can be
 //! counted by hand.
 
-use terraline::clock::{Chain, Clock, LERP_LATENCY, RAY_START};
+use terraline::clock::{Chain, Clock};
 use terraline::engine::FixedWorld;
 use terraline::plan::Plan;
 use terraline::processor::{self, Processor};
 use terraline::scene::{self, Scene};
+use terraline::setup::table::{LERP_LATENCY, RAY_START};
 use terraline::setup::{Memory, Setup};
 use terraline::study::cost::{Cost, Measure};
 use terraline::study::error::Sample;

@@ -1,24 +1,23 @@
 //! `terraline render`.
 
+mod summary;
+
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use serde::Serialize;
 
 use super::scene_args::{Planned, SceneArgs};
 use super::{Stop, report};
 use crate::clock::{Chain, Clock};
 use crate::engine::{self, Engine, InFixedWorld, Overflows};
 use crate::fast::{self, enter::Enterable};
-use crate::frame::{Frame, Hit};
+use crate::frame::Frame;
 use crate::plan::units::{UnitPlan, units};
 use crate::setup::{Memory, Setup, SetupError};
 use crate::sink::picture::{self, Picture};
 use crate::sink::{self, npz, png};
-use crate::study::cost::{Cost, Measure};
-use crate::study::error::{self, ErrorReport, Sample, Sheet, Spread};
-use crate::study::explain::hit_name;
+use crate::study::error::{self, Sample, Sheet};
 use crate::word::Complete;
 
 /// Draw one frame and say what it is worth and what it costs.
@@ -59,8 +58,6 @@ pub struct Render {
 
 /// Pixels beyond which buffers are refused: they hold about 90 bytes each.
 const MAX_BUFFERED: usize = 1 << 24;
-/// Lines whose cycles and operations the summary counts.
-const COST_LINES: u32 = 32;
 
 /// A drawn frame.
 struct Drawn {
@@ -69,61 +66,6 @@ struct Drawn {
     setup: Duration,
     overflows: Overflows,
     cycles: Option<Vec<u32>>,
-}
-
-/// Milliseconds of repeated frames.
-#[derive(Serialize)]
-struct Times {
-    min: f64,
-    median: f64,
-    max: f64,
-    runs: usize,
-}
-
-/// Pixels by outcome.
-#[derive(Serialize)]
-struct Hits {
-    sky: usize,
-    surface: usize,
-    side: usize,
-    far: usize,
-}
-
-#[derive(Serialize)]
-struct Located {
-    register: &'static str,
-    pixels: u64,
-    line: u32,
-    column: u32,
-}
-
-#[derive(Serialize)]
-struct Worst {
-    column: u32,
-    line: u32,
-    error_px: f64,
-    explain: String,
-}
-
-#[derive(Serialize)]
-struct Summary {
-    engine: &'static str,
-    world: &'static str,
-    world_why: String,
-    columns: usize,
-    lines: usize,
-    units: Vec<UnitPlan>,
-    frame_ms: Times,
-    setup_ms: f64,
-    threads: usize,
-    hits: Hits,
-    cycles: u64,
-    additions: u64,
-    modelled_fps: f64,
-    cost: Cost,
-    overflows: Vec<Located>,
-    errors: Option<ErrorReport>,
-    worst: Option<Worst>,
 }
 
 struct Draw<'a> {
@@ -286,204 +228,6 @@ impl Render {
         }
         Ok(())
     }
-
-    fn summarise(&self, planned: &Planned, drawn: &Drawn) -> Result<Summary, Stop> {
-        let Planned { scene, plan, world, invocation } = planned;
-        let count = |hit| drawn.frame.hit.iter().filter(|h| **h == hit).count();
-        let mut times: Vec<f64> = drawn.times.iter().map(|t| t.as_secs_f64() * 1e3).collect();
-        times.sort_by(f64::total_cmp);
-        let lines = Sample::whole_lines(plan, COST_LINES, scene.seed);
-        let all = Sample::all(plan);
-        // The processor's own frame gives the cycles of all its lines.
-        let cycles = if self.engine == Engine::Processor { &all } else { &lines };
-        let cost = world.run(Measure { scene, plan, cycles, operations: &lines })?;
-        let fixed = matches!(self.engine, Engine::Fast | Engine::Processor);
-        let errors = if fixed && self.sample > 0 {
-            let sample = Sample::strips(plan, self.sample, scene.seed);
-            let pixels = error::pixels(scene, plan, world, &sample)?;
-            Some(ErrorReport::new(&sample, &pixels, scene.unit_m))
-        } else {
-            None
-        };
-        let worst = errors.as_ref().and_then(|errors| {
-            let (column, line) = errors.worst?;
-            Some(Worst {
-                column,
-                line,
-                error_px: errors.total_px.max,
-                explain: format!("terraline explain {invocation} --pixel {column},{line}"),
-            })
-        });
-        Ok(Summary {
-            engine: self.engine.name(),
-            world: match self.engine {
-                Engine::Real => "real",
-                Engine::Oracle => "oracle",
-                _ => world.name(),
-            },
-            world_why: plan.words_why().to_owned(),
-            columns: drawn.frame.columns,
-            lines: drawn.frame.lines,
-            units: world.run(Units { planned }),
-            frame_ms: Times {
-                min: times[0],
-                median: times[times.len() / 2],
-                max: times[times.len() - 1],
-                runs: times.len(),
-            },
-            setup_ms: drawn.setup.as_secs_f64() * 1e3,
-            threads: if self.engine == Engine::Processor || self.engine == Engine::Real {
-                1
-            } else {
-                rayon::current_num_threads()
-            },
-            hits: Hits {
-                sky: count(Hit::Sky),
-                surface: count(Hit::Surface),
-                side: count(Hit::Side),
-                far: count(Hit::Far),
-            },
-            cycles: cost.cycles,
-            additions: cost.additions,
-            modelled_fps: cost.modelled_fps,
-            cost,
-            overflows: drawn
-                .overflows
-                .registers
-                .iter()
-                .map(|&(register, pixels, (line, column))| Located {
-                    register: register.name(),
-                    pixels,
-                    line,
-                    column,
-                })
-                .collect(),
-            errors,
-            worst,
-        })
-    }
-
-    fn text(&self, planned: &Planned, summary: &Summary) -> String {
-        let digits = report::digits;
-        let mut out = vec![format!(
-            "{}, {}x{}, {} engine, {} ({})",
-            planned.scene.name,
-            summary.columns,
-            summary.lines,
-            summary.engine,
-            summary.world,
-            summary.world_why
-        )];
-        let fitted: Vec<_> =
-            summary.units.iter().filter(|unit| unit.fitted).map(|unit| unit.name).collect();
-        out.push(format!("  fitted    {}", fitted.join(", ")));
-        for unit in summary.units.iter().filter(|unit| !unit.fitted) {
-            out.push(format!("  left out  {}: {}", unit.name, unit.why));
-        }
-        let cost = &summary.cost;
-        out.push(format!(
-            "  machine   {} cycles and {} additions a pixel (processor, {} and {} of {} lines); \
-             the {} limits",
-            digits(cost.cycles_per_pixel),
-            digits(cost.additions_per_pixel),
-            cost.cycle_lines,
-            cost.operation_lines,
-            cost.lines,
-            cost.limit
-        ));
-        out.push(format!(
-            "            {} frames/s modelled at {} MHz",
-            digits(summary.modelled_fps),
-            planned.scene.machine.clock_mhz
-        ));
-        let times = &summary.frame_ms;
-        let spread = if times.runs > 1 {
-            format!(" (median of {}, {} to {})", times.runs, digits(times.min), digits(times.max))
-        } else {
-            String::new()
-        };
-        out.push(format!(
-            "  wall time {} ms a frame{spread} on {} thread{}; maps and tables {} ms before",
-            digits(times.median),
-            summary.threads,
-            if summary.threads == 1 { "" } else { "s" },
-            digits(summary.setup_ms)
-        ));
-        let pixels = (summary.columns * summary.lines) as f64;
-        let share = |count: usize| 100.0 * count as f64 / pixels;
-        let hits = &summary.hits;
-        out.push(format!(
-            "  pixels    {}",
-            [
-                (Hit::Surface, hits.surface),
-                (Hit::Side, hits.side),
-                (Hit::Sky, hits.sky),
-                (Hit::Far, hits.far)
-            ]
-            .iter()
-            .filter(|(_, count)| *count > 0)
-            .map(|(hit, count)| format!("{} {:.2} %", hit_name(*hit), share(*count)))
-            .collect::<Vec<_>>()
-            .join(", ")
-        ));
-        for overflow in &summary.overflows {
-            out.push(format!(
-                "  overflow  {} on {} pixels, first at column {}, line {}",
-                overflow.register, overflow.pixels, overflow.column, overflow.line
-            ));
-        }
-        match &summary.errors {
-            Some(errors) => out.extend(error_lines(errors)),
-            None => out.push("  error     not measured".into()),
-        }
-        if let Some(worst) = &summary.worst {
-            out.push(format!(
-                "  worst     column {}, line {}: {} pixels off; {}",
-                worst.column,
-                worst.line,
-                digits(worst.error_px),
-                worst.explain
-            ));
-        }
-        for path in [&self.output, &self.buffers].into_iter().flatten() {
-            out.push(format!("  wrote     {}", path.display()));
-        }
-        out.join("\n")
-    }
-}
-
-fn error_lines(errors: &ErrorReport) -> Vec<String> {
-    let row = |name: &str, px: Spread, m: Spread| {
-        let digits = report::digits;
-        format!(
-            "            {name:<13} {:>9} {:>9} {:>9} px {:>9} {:>9} {:>9} m",
-            digits(px.median),
-            digits(px.p999),
-            digits(px.max),
-            digits(m.median),
-            digits(m.p999),
-            digits(m.max)
-        )
-    };
-    vec![
-        format!(
-            "  error     against the oracle on {} pixels ({} lines x {} columns): {} on the same \
-             sheet, {} silhouettes",
-            errors.pixels,
-            errors.sampled_lines,
-            errors.sampled_columns,
-            errors.same_sheet,
-            errors.silhouettes
-        ),
-        format!(
-            "            {:<13} {:>9} {:>9} {:>9}    {:>9} {:>9} {:>9}",
-            "", "median", "99.9 %", "max", "median", "99.9 %", "max"
-        ),
-        row("total", errors.total_px, errors.total_m),
-        row("algorithm", errors.algorithm_px, errors.algorithm_m),
-        row("quantisation", errors.quantisation_px, errors.quantisation_m),
-        format!("            colour within 2 levels on {:.2} %", 100.0 * errors.color_within_2),
-    ]
 }
 
 /// The plan's units in the world's formats.

@@ -1,9 +1,11 @@
 //! Surface heights of many places at a time: the interpolator's arithmetic in loops over lanes.
 
-use super::march::LANES;
 use crate::unit::interpolator::{Form, Interpolator, mix};
 use crate::unit::stepper::SurfaceUnit;
 use crate::word::{Cell, Interpolating, Site, World};
+
+/// Rays that walk together: one vector of 32-bit words at the widest SIMD level.
+pub const LANES: usize = 16;
 
 /// Heights at places over the map; whatever stands in lanes that are not asked for is ignored.
 #[inline(always)]

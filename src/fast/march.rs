@@ -6,7 +6,7 @@
 //! samples. A sample at or above its cell's highest node is clear without interpolation, which is
 //! exact because every kernel stays within its nodes.
 
-use super::heights::heights;
+use super::heights::{LANES, heights};
 use crate::frame::Hit;
 use crate::unit::Line;
 use crate::unit::interpolator::Interpolator;
@@ -14,9 +14,6 @@ use crate::unit::line::{Entry, Work};
 use crate::unit::pyramid::Pyramid;
 use crate::unit::stepper::{Heading, Place, Stepper, SurfaceUnit};
 use crate::word::{Cell, Interpolating, Site, Word as _, World};
-
-/// Rays that walk together: one vector of 32-bit words at the widest SIMD level.
-pub const LANES: usize = 16;
 
 /// One per lane: 1 where something holds, else 0. Numbers of the words' width mix with them in
 /// vectors, `bool`s would not.

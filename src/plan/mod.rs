@@ -10,7 +10,7 @@ pub mod units;
 use glam::DVec3;
 
 use crate::scene::{
-    Deformation, KernelShape, Outside, Scene, Screen, StepperMode, Surface, Terrain, WordSize,
+    Deformation, KernelShape, Scene, Screen, StepperMode, Surface, Terrain, WordSize,
 };
 use crate::word::{Class, Fixed, Register};
 use geometry::Geometry;
@@ -307,14 +307,4 @@ pub(crate) fn plane_axes(normal: DVec3) -> [DVec3; 2] {
     let across = if normal.z.abs() < 0.9 { DVec3::Z } else { DVec3::X };
     let first = normal.cross(across).normalize();
     [first, first.cross(normal)]
-}
-
-/// What lies beyond the map, for the height memory.
-pub(crate) fn edge_of(outside: Outside) -> crate::unit::height_memory::Edge {
-    use crate::unit::height_memory::Edge;
-    match outside {
-        Outside::Sky => Edge::Ends,
-        Outside::Clamp => Edge::Clamps,
-        Outside::Wrap => Edge::Wraps,
-    }
 }

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::geometry::Geometry;
 use super::{PlanError, WordClass};
-use crate::scene::{Halvings, Outside, Terrain, WordSize};
+use crate::scene::{Outside, Terrain, WordSize};
 
 /// Heights are loaded as `(y − datum) / unit`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -236,16 +236,5 @@ impl WalkPlan {
     /// The most halvings that leave bits in a step.
     pub fn halving_cap(&self, fineness: u32) -> u32 {
         self.words.ground_point - fineness - 1
-    }
-
-    /// The stepper's rule for an asked refinement.
-    pub fn halvings(&self, asked: Halvings, fineness: u32) -> crate::unit::stepper::HalvingRule {
-        use crate::unit::stepper::HalvingRule;
-        match asked {
-            Halvings::Fixed(times) => HalvingRule::Fixed(times),
-            Halvings::Footprint => {
-                HalvingRule::Footprint { bias: self.halving_bias, cap: self.halving_cap(fineness) }
-            }
-        }
     }
 }

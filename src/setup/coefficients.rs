@@ -7,12 +7,12 @@ use super::memory::{Memory, load};
 use crate::plan::geometry::{LinearScalar, LinearVector};
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanePlan};
-use crate::scene::{Colors, Plane, Scene};
+use crate::scene::{Colors, Halvings, Plane, Scene};
 use crate::unit::divider::Divider;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::projector::{Linear, Projector};
 use crate::unit::shader::{Flat, Light, PlaneShader, Ramp, Segment, TerrainShader};
-use crate::unit::stepper::Stepper;
+use crate::unit::stepper::{HalvingRule, Stepper};
 use crate::word::{Dividing, Load, Open, Ratio, Register, Word};
 
 /// View vector and denominator as the projector accumulates them, scaled by powers of two.
@@ -180,7 +180,13 @@ pub(super) fn stepper<W: Open>(
         base: height(walk.base)?,
         fineness: scene.stepper.fineness,
         last: walk.last,
-        halvings: walk.halvings(scene.stepper.halvings, scene.stepper.fineness),
+        halvings: match scene.stepper.halvings {
+            Halvings::Fixed(times) => HalvingRule::Fixed(times),
+            Halvings::Footprint => HalvingRule::Footprint {
+                bias: walk.halving_bias,
+                cap: walk.halving_cap(scene.stepper.fineness),
+            },
+        },
         pyramid: memory.pyramid.clone(),
         extent: ends.then(|| (heights.columns(), heights.rows())),
         format_x: world.ground(Register::GroundX),

@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::kernel;
 use crate::plan::ranges::WalkPlan;
-use crate::plan::{Ground, Plan, edge_of, kernel_is_hat};
-use crate::scene::{Deformation, Kernel, KernelShape, Scene, Surface, Terrain};
-use crate::unit::height_memory::HeightMemory;
+use crate::plan::{Ground, Plan, kernel_is_hat};
+use crate::scene::{Deformation, Kernel, KernelShape, Outside, Scene, Surface, Terrain};
+use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
 use crate::unit::kernel_rom::KernelRom;
 use crate::unit::pyramid::Pyramid;
@@ -97,7 +97,12 @@ fn heights<W: Open>(
         })
         .collect::<Result<Vec<_>, _>>()?;
     let (columns, rows) = (terrain.map.columns(), terrain.map.rows());
-    Ok(HeightMemory::new(nodes, columns, rows, edge_of(terrain.outside)))
+    let edge = match terrain.outside {
+        Outside::Sky => Edge::Ends,
+        Outside::Clamp => Edge::Clamps,
+        Outside::Wrap => Edge::Wraps,
+    };
+    Ok(HeightMemory::new(nodes, columns, rows, edge))
 }
 
 /// The smallest form that gives the kernel's bits; the full machine's form where all is fitted.

@@ -4,9 +4,18 @@
 use std::fmt::Write as _;
 
 use super::formats::follows;
-use crate::clock::{DIVIDER_ENDS, LERP_LATENCY, RAY_START, SHADER_LATENCY};
 use crate::plan::WordClass;
 use crate::word::Register;
+
+/// Pipeline stages of the interpolator behind its memory: ROM and blend, lerps along z, lerp along
+/// x, compare.
+pub const LERP_LATENCY: u32 = 5;
+/// Cycles to shift a view vector into a step.
+pub const RAY_START: u32 = 2;
+/// Pipeline stages of the shader: normal, squares, table, dot product, light, ramp, mix, byte.
+pub const SHADER_LATENCY: u32 = 12;
+/// Register stages of the divider besides one per quotient bit: bias, range, eye.
+pub const DIVIDER_ENDS: u32 = 3;
 
 /// One row of the table.
 #[derive(Clone, Copy, Debug)]

@@ -1,0 +1,91 @@
+//! Closed forms of a pixel's registers, from the oracle.
+
+use glam::DVec3;
+
+use crate::oracle::Sighting;
+use crate::plan::{Ground, Plan};
+use crate::scene::Scene;
+use crate::setup::coefficients::Coefficients;
+
+/// Closed forms of a pixel's registers.
+pub(super) struct Closed<'a> {
+    pub scene: &'a Scene,
+    pub plan: &'a Plan,
+    pub coefficients: Coefficients,
+    pub direction: DVec3,
+    pub eye: DVec3,
+    pub sighting: Sighting,
+}
+
+impl Closed<'_> {
+    fn ramp(&self, top: f64) -> f64 {
+        let Ground::Terrain(walk) = &self.plan.ground else { return 0.0 };
+        let height = walk.scale.to_register(self.sighting.point.y);
+        let segments = (self.scene.color.ramp.len() - 1) as f64;
+        if top == 0.0 { 0.0 } else { height / top * segments }
+    }
+
+    fn light(&self) -> f64 {
+        let light = &self.scene.light;
+        let diffuse = self.sighting.normal.dot(light.direction).max(0.0);
+        light.ambient + (1.0 - light.ambient) * diffuse
+    }
+
+    pub fn value(&self, what: &str) -> Option<f64> {
+        match &self.plan.ground {
+            Ground::Terrain(walk) => {
+                let view = self.direction / walk.lengths;
+                let eye = walk.eye;
+                let scale = libm::scalbn(1.0, self.coefficients.view_exponent);
+                let lambda = (walk.top - eye.y) / view.y;
+                let met = self.sighting.point.is_finite();
+                let slope = |at: usize| {
+                    let n = self.sighting.normal;
+                    met.then(|| n.to_array()[at] / n.y)
+                };
+                match what {
+                    "view, x" => Some(view.x * scale),
+                    "view, y" => Some(view.y * scale),
+                    "view, z" => Some(view.z * scale),
+                    "denominator" if !walk.from_eye => {
+                        let scale = libm::scalbn(1.0, self.coefficients.denominator_exponent);
+                        Some(view.y / (walk.top - eye.y) * scale)
+                    }
+                    "entry, x" => Some(eye.x + lambda * view.x),
+                    "entry, z" => Some(eye.z + lambda * view.z),
+                    "hit, x" => met.then(|| self.sighting.point.x / walk.lengths.x),
+                    "hit, z" => met.then(|| self.sighting.point.z / walk.lengths.z),
+                    "surface height" => met.then(|| walk.scale.to_register(self.sighting.point.y)),
+                    "place on the ramp" if met => Some(self.ramp(walk.top)),
+                    "light" if met => Some(self.light()),
+                    "slope, x" => slope(0),
+                    "slope, z" => slope(2),
+                    _ => None,
+                }
+            }
+            Ground::Plane(plane) => {
+                let along = |at: usize| plane.axes[at].dot(self.direction) / plane.checker;
+                let scale = libm::scalbn(1.0, self.coefficients.view_exponent);
+                let g = plane.normal.dot(self.direction);
+                let point = |at: usize| {
+                    let met = self.sighting.point.is_finite();
+                    met.then(|| {
+                        plane.axes[at].dot(self.eye + g.recip() * plane.numerator * self.direction)
+                            / plane.checker
+                    })
+                };
+                match what {
+                    "view, x" => Some(along(0) * scale),
+                    "view, z" => Some(along(1) * scale),
+                    "denominator" if plane.numerator != 0.0 => {
+                        let scale = libm::scalbn(1.0, self.coefficients.denominator_exponent);
+                        Some(g / plane.numerator * scale)
+                    }
+                    "entry, x" => point(0),
+                    "entry, z" => point(1),
+                    _ => None,
+                }
+            }
+        }
+    }
+}

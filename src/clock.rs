@@ -190,10 +190,11 @@ impl Clock {
         self.chain.stages.iter().copied().zip(self.occupancy.iter().copied())
     }
 
-    /// The unit with most cycles of work: it limits the frame rate.
+    /// The (first) unit with most cycles of work: it limits the frame rate.
     pub fn limit(&self) -> &'static str {
+        let most = self.occupancy().map(|(_, occupancy)| occupancy.busy).max();
         self.occupancy()
-            .max_by_key(|(_, occupancy)| occupancy.busy)
-            .map_or("frame", |(stage, _)| stage.name)
+            .find(|(_, occupancy)| Some(occupancy.busy) == most)
+            .map_or("projector", |(stage, _)| stage.name)
     }
 }

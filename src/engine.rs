@@ -91,6 +91,11 @@ impl FixedWorld {
         }
     }
 
+    /// Whether registers may overflow: in stock worlds the plan has proved that none does.
+    pub fn can_overflow(&self) -> bool {
+        matches!(self, Self::Sweep(_))
+    }
+
     /// Whether the recurrences may be entered anywhere: the fast engine draws such worlds only.
     pub fn wraps(&self) -> bool {
         match self {
@@ -116,13 +121,17 @@ pub fn draw_by_lines<W: Complete>(
     frame.finish()
 }
 
-/// Draws a frame with the real or the oracle engine.
+/// Draws a frame with the real engine, from its memories.
 ///
 /// # Errors
 /// If the scene cannot be set up.
-pub fn draw_real(scene: &Scene, plan: &Plan, buffers: bool) -> Result<Frame, SetupError> {
-    let memory = Memory::new(&Real, scene, plan)?;
-    let setup = Setup::new(Real, scene, plan, memory.as_ref())?;
+pub fn draw_real(
+    scene: &Scene,
+    plan: &Plan,
+    memory: Option<&Memory<Real>>,
+    buffers: bool,
+) -> Result<Frame, SetupError> {
+    let setup = Setup::new(Real, scene, plan, memory)?;
     Ok(draw_by_lines(&setup, plan, buffers, |_| {}))
 }
 
@@ -131,11 +140,12 @@ pub fn draw_oracle(scene: &Scene, plan: &Plan) -> Frame {
     oracle(scene, plan).frame()
 }
 
-/// The oracle of a plan's screen.
+/// The oracle of a plan's screen. On maps without end it follows rays as far as a position
+/// register reaches; the machine's walk may end before that, as `Far`.
 pub fn oracle(scene: &Scene, plan: &Plan) -> Oracle {
     let oracle = Oracle::new(scene, &plan.screen);
     match &plan.ground {
-        crate::plan::Ground::Terrain(walk) => oracle.with_reach_cells(walk.reach),
+        crate::plan::Ground::Terrain(walk) => oracle.with_reach_cells(walk.extreme),
         crate::plan::Ground::Plane(_) => oracle,
     }
 }
@@ -152,7 +162,10 @@ impl Overflows {
     pub fn inspect<W: Complete>(&mut self, line: &Line<W>) {
         for (register, count, first) in line.overflows() {
             match self.registers.iter_mut().find(|(known, ..)| *known == register) {
-                Some((_, total, _)) => *total += count,
+                Some((_, total, known)) => {
+                    *total += count;
+                    *known = (*known).min((line.number, first));
+                }
                 None => self.registers.push((register, count, (line.number, first))),
             }
         }

@@ -30,19 +30,20 @@ fn errors(scene: &Scene, strips: u32) -> ErrorReport {
         world.name(),
         report.same_sheet,
         report.silhouettes,
-        report.total_px.median,
-        report.total_px.p999,
-        report.total_px.max,
-        report.algorithm_px.median,
-        report.algorithm_px.p999,
-        report.algorithm_px.max,
+        report.total_px.expect("pixels").median,
+        report.total_px.expect("pixels").p999,
+        report.total_px.expect("pixels").max,
+        report.algorithm_px.expect("pixels").median,
+        report.algorithm_px.expect("pixels").p999,
+        report.algorithm_px.expect("pixels").max,
         report.color_within_2,
     );
     report
 }
 
 #[track_caller]
-fn within(what: &str, spread: Spread, median: f64, p999: f64) {
+fn within(what: &str, spread: Option<Spread>, median: f64, p999: f64) {
+    let spread = spread.expect("pixels on the same sheet");
     assert!(spread.max > 0.0, "{what}: nothing was measured");
     assert!(spread.median <= median, "{what}: median {}", spread.median);
     assert!(spread.p999 <= p999, "{what}: 99.9 % within {}", spread.p999);
@@ -76,7 +77,10 @@ fn wide_words_keep_the_bounds_of_narrow_ones() {
         keeps(&report, 0.4, 0.002);
         within("total", report.total_px, 1.0 / 32.0, 0.25);
         // What is left is the algorithm's own error.
-        assert!(report.quantisation_px.median < report.algorithm_px.median);
+        assert!(
+            report.quantisation_px.expect("pixels").median
+                < report.algorithm_px.expect("pixels").median
+        );
     }
 }
 
@@ -97,7 +101,7 @@ fn planes_keep_their_bounds() {
         keeps(&report, 0.5, 0.001);
         // A square's border may fall on either side of a pixel's centre.
         within("total", report.total_px, 1.0 / 32.0, p999);
-        assert!(report.algorithm_px.max < 1e-6, "a ratio in f64 is exact");
+        assert!(report.algorithm_px.expect("pixels").max < 1e-6, "a ratio in f64 is exact");
     }
 }
 

@@ -4,6 +4,7 @@ mod scenes;
 
 use glam::DVec3;
 use proptest::prelude::*;
+use terraline::plan::Plan;
 use terraline::scene::{Attitude, Scene, Surface, WordSize};
 use terraline::unit::divider::Method;
 use terraline::unit::line::Entry;
@@ -177,12 +178,24 @@ fn both_ways_agree<W: Complete>(world: W, scene: &Scene) -> usize {
 
 fn planes_divide_alike(heights: &[f64]) {
     for &y in heights {
-        for checker in [1.0, 8.0, 1000.0] {
-            let at = |words| scenes::plane_scene(DVec3::new(3.0, y, -5.0), checker, words);
+        let mut drawn = 0;
+        for checker in [1e-6, 1e-3, 1.0, 8.0, 1000.0] {
+            let eye = DVec3::new(3.0 * checker, y, -5.0 * checker);
+            let at = |words| scenes::plane_scene(eye, checker, words);
+            // An eye so near that positions are coarser than pixels is refused.
+            let planned = |scene: &Scene| Plan::new(scene, None, false).is_ok();
+            let (narrow, wide) = (at(WordSize::Narrow), at(WordSize::Wide));
             println!("height {y}, squares of {checker}");
-            both_ways_agree(Narrow, &at(WordSize::Narrow));
-            both_ways_agree(Wide, &at(WordSize::Wide));
+            if planned(&narrow) {
+                both_ways_agree(Narrow, &narrow);
+                drawn += 1;
+            }
+            if planned(&wide) {
+                both_ways_agree(Wide, &wide);
+                drawn += 1;
+            }
         }
+        assert!(drawn > 1, "height {y} is drawn");
     }
 }
 
@@ -216,4 +229,23 @@ fn a_map_seen_from_high_above_towards_the_horizon_divides_alike_both_ways() {
 fn a_usual_plane_is_met_everywhere() {
     let scene = scenes::plane_scene(DVec3::new(3.0, 10.0, -5.0), 8.0, WordSize::Narrow);
     assert_eq!(both_ways_agree(Narrow, &scene), 16 * 12);
+}
+
+#[test]
+fn ratios_of_any_exponent_keep_to_the_floor() {
+    for bits in [8, 32, 49] {
+        for (n, d) in [(1_i128, 1_i128), (-1, 1), (7, 3), (-7, 3), (1 << 38, (1 << 39) - 1), (0, 5)]
+        {
+            for shift in [-300, -128, -127, -64, 64, 100, 126, 127, 128, 300] {
+                let expected = match (n, shift > 0) {
+                    (0, _) => Some(0),
+                    // Beyond every range.
+                    (_, true) => None,
+                    (n, false) => Some(if n < 0 { -1 } else { 0 }),
+                };
+                assert_eq!(non_restoring(n, d, shift, bits), expected, "{n}/{d} · 2^{shift}");
+                assert_eq!(direct(n, d, shift, bits), expected, "{n}/{d} · 2^{shift}");
+            }
+        }
+    }
 }

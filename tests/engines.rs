@@ -14,8 +14,9 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use proptest::test_runner::TestCaseError;
 use support::recipe::{Recipe, recipes};
-use support::{assert_same, both, builtin, count, difference, drawn, is_under_ground, runner};
-use terraline::engine::draw_real;
+use support::{
+    assert_same, both, builtin, count, difference, draw_in_real, drawn, is_under_ground, runner,
+};
 use terraline::frame::{Frame, Hit};
 use terraline::plan::{Plan, WordClass};
 use terraline::scene::{Scene, StepperMode, WordSize};
@@ -150,7 +151,7 @@ fn the_real_world_sees_what_the_fixed_one_sees() {
     let result = runner(150).run(&recipes(), |recipe| {
         for (scene, plan) in planned(&recipe, &seen) {
             let Ok(fixed) = drawn(&scene, &plan) else { continue };
-            let real = draw_real(&scene, &plan, true);
+            let real = draw_in_real(&scene, &plan);
             let real = real.map_err(|error| TestCaseError::fail(error.to_string()))?;
             seen.frame(&real);
             pixels.fetch_add(real.hit.len(), Relaxed);

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::scene_args::keep_inputs;
 use super::{Stop, report};
 use crate::sink::{self, png};
 use crate::study::compare::{Comparison, compare_files, difference_picture, gain};
@@ -40,6 +41,7 @@ impl Compare {
         }
         if let Some(path) = &self.output {
             sink::check_writable(path)?;
+            keep_inputs([path.as_path()], &[self.a.clone(), self.b.clone()])?;
         }
         let comparison = compare_files(&self.a, &self.b)?;
         if let Some(path) = &self.output {

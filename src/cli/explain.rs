@@ -36,12 +36,15 @@ impl Explain {
 }
 
 fn text(scene: &str, world: &str, e: &Explanation) -> String {
+    let sample = match e.hit {
+        "surface" | "side" => format!("sample {} hit", e.steps),
+        _ => "no sample hit".to_owned(),
+    };
     let mut out = vec![
         format!("{scene}, column {}, line {}, {world}", e.column, e.line),
         format!(
-            "fixed: {}, real: {}, oracle: {}; sample {} hit after {} trials, {} samples, {} \
-             halvings",
-            e.hit, e.real_hit, e.oracle_hit, e.steps, e.trials, e.samples, e.halvings
+            "fixed: {}, real: {}, oracle: {}; {} after {} trials, {} samples, {} halvings",
+            e.hit, e.real_hit, e.oracle_hit, sample, e.trials, e.samples, e.halvings
         ),
         format!(
             "colour {:?}, oracle {:?}. Numbers on the right: equations of docs/mathematics.md",

@@ -90,8 +90,8 @@ fn text(scene: &str, planning: &Planning) -> String {
             if walk.from_eye { "at the eye" } else { "at the highest node" },
             walk.last_index,
             walk.reach_cells,
-            walk.height_unit,
-            walk.datum
+            report::digits(walk.height_unit),
+            report::digits(walk.datum)
         ));
     }
     for unit in &planning.units {

@@ -3,11 +3,12 @@
 mod summary;
 
 use std::path::PathBuf;
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use super::scene_args::{Planned, SceneArgs};
+use super::scene_args::{Planned, SceneArgs, keep_inputs};
 use super::{Stop, report};
 use crate::clock::{Chain, Clock};
 use crate::engine::{self, Engine, InFixedWorld, Overflows};
@@ -19,6 +20,7 @@ use crate::sink::picture::{self, Picture};
 use crate::sink::{self, npz, png};
 use crate::study::error::{self, Sample, Sheet};
 use crate::word::Complete;
+use crate::word::real::Real;
 
 /// Draw one frame and say what it is worth and what it costs.
 #[derive(Debug, Args)]
@@ -48,7 +50,7 @@ pub struct Render {
     repeat: u32,
 
     /// Errors are measured on N lines x N columns, one at random in each of N strips; 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(0..=16_384))]
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(0..=4096))]
     sample: u32,
 
     /// One JSON object on stdout.
@@ -91,8 +93,17 @@ impl InFixedWorld for Draw<'_> {
         for _ in 0..self.repeat {
             let start = Instant::now();
             let setup = Setup::new(world, scene, plan, memory.as_ref())?;
-            frame = Some(if self.engine == Engine::Fast {
+            frame = Some(if self.engine == Engine::Fast && !self.planned.world.can_overflow() {
                 fast::render(&setup, plan, self.buffers)
+            } else if self.engine == Engine::Fast {
+                let found = Mutex::new(Overflows::default());
+                let frame = fast::render_and_look(&setup, plan, self.buffers, &|line| {
+                    if let Ok(mut found) = found.lock() {
+                        found.inspect(line);
+                    }
+                });
+                overflows = found.into_inner().unwrap_or_default();
+                frame
             } else {
                 let mut clock = self.cycles.then(|| {
                     let latency = scene.machine.memory_latency;
@@ -132,12 +143,17 @@ impl Render {
             )));
         }
         let planned = self.scene.load()?;
+        let outputs = [&self.output, &self.buffers].into_iter().flatten().map(PathBuf::as_path);
+        keep_inputs(outputs, &self.scene.inputs(&planned))?;
         let pixels = planned.plan.geometry.columns as usize * planned.plan.geometry.lines as usize;
         let buffers = self.buffers.is_some() || self.picture.needs_buffers();
-        if buffers && pixels > MAX_BUFFERED {
+        // The oracle's frame has buffers always, the picture of errors holds as much.
+        let heavy = buffers || self.engine == Engine::Oracle || self.picture == Picture::Error;
+        if heavy && pixels > MAX_BUFFERED {
             return Err(Stop::BadInput(format!(
-                "--size: buffers of {pixels} pixels would take gigabytes, at most {MAX_BUFFERED} \
-                 are held; draw a smaller frame, or the colour picture alone"
+                "--size: {pixels} pixels with their buffers would take gigabytes, at most \
+                 {MAX_BUFFERED} are held; draw a smaller frame, or the colour picture with the fast \
+                 engine"
             )));
         }
         let drawn = report::while_waiting("drawing", || self.draw(&planned, buffers))?;
@@ -174,22 +190,22 @@ impl Render {
             Engine::Real | Engine::Oracle => {
                 let mut times = Vec::new();
                 let mut frame = None;
+                let start = Instant::now();
+                let memory = match self.engine {
+                    Engine::Real => Memory::new(&Real, scene, plan)?,
+                    _ => None,
+                };
+                let setup = start.elapsed();
                 for _ in 0..self.repeat {
                     let start = Instant::now();
                     frame = Some(match self.engine {
-                        Engine::Real => engine::draw_real(scene, plan, buffers)?,
+                        Engine::Real => engine::draw_real(scene, plan, memory.as_ref(), buffers)?,
                         _ => engine::draw_oracle(scene, plan),
                     });
                     times.push(start.elapsed());
                 }
                 let frame = frame.unwrap_or_else(|| unreachable!("at least one frame is drawn"));
-                Ok(Drawn {
-                    frame,
-                    times,
-                    setup: Duration::ZERO,
-                    overflows: Overflows::default(),
-                    cycles: None,
-                })
+                Ok(Drawn { frame, times, setup, overflows: Overflows::default(), cycles: None })
             }
         }
     }

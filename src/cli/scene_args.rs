@@ -1,12 +1,14 @@
 //! Which scene, and what is changed in it.
 
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 
 use super::Stop;
 use crate::engine::FixedWorld;
 use crate::plan::Plan;
 use crate::scene::screen::{MAX_PIXELS, MAX_SIDE};
-use crate::scene::{self, FormatRequest, Overflow, Rounding, Scene};
+use crate::scene::{self, FormatRequest, Overflow, Rounding, Scene, Surface};
 
 /// Scene and overrides.
 #[derive(Debug, Args)]
@@ -62,10 +64,25 @@ impl SceneArgs {
                 *screen = screen.resized(columns, lines);
             }
         }
-        let plan = Plan::new(&scene, self.screen.as_deref(), self.full)?;
-        let world = FixedWorld::of(&scene, &plan)?;
+        let of = self.scene.as_deref().unwrap_or("overview");
+        let located = |error: String| Stop::BadInput(format!("{of}: {error}"));
+        let plan = Plan::new(&scene, self.screen.as_deref(), self.full)
+            .map_err(|error| located(error.to_string()))?;
+        let world = FixedWorld::of(&scene, &plan).map_err(|error| located(error.to_string()))?;
         let invocation = self.invocation();
         Ok(Planned { scene, plan, world, invocation })
+    }
+
+    /// Files that a planned scene was read from.
+    pub fn inputs(&self, planned: &Planned) -> Vec<PathBuf> {
+        let Some(file) = self.scene.as_deref().map(PathBuf::from) else { return Vec::new() };
+        let mut inputs = Vec::new();
+        if let Surface::Terrain(terrain) = &planned.scene.surface {
+            let folder = file.parent().unwrap_or(Path::new("."));
+            inputs.push(folder.join(&terrain.source));
+        }
+        inputs.push(file);
+        inputs
     }
 
     /// The arguments again, quoted for a shell.
@@ -85,6 +102,24 @@ impl SceneArgs {
         }
         words.join(" ")
     }
+}
+
+/// Refuses to write to a file that is read.
+pub fn keep_inputs<'a>(
+    outputs: impl IntoIterator<Item = &'a Path>,
+    inputs: &[PathBuf],
+) -> Result<(), Stop> {
+    for output in outputs {
+        // A file that does not exist is no input.
+        let Ok(real) = std::fs::canonicalize(output) else { continue };
+        if inputs.iter().any(|input| std::fs::canonicalize(input).is_ok_and(|i| i == real)) {
+            return Err(Stop::BadInput(format!(
+                "{}: this file is read, it would be overwritten; give another name for the output",
+                output.display()
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// A word for a POSIX shell.

@@ -144,7 +144,7 @@ fn start<W: World>(stepper: &Stepper<W>, line: &Line<W>, from: usize, to: usize)
         match entry {
             Entry::Sky => continue,
             Entry::Far => {
-                lanes.outcome[lane] = Hit::Far;
+                lanes.outcome[lane] = stepper.beyond;
                 continue;
             }
             Entry::Met => {}

@@ -47,8 +47,7 @@ fn run_units<W: Complete + Enterable>(setup: &Setup<W>, number: u32, line: &mut 
     match &setup.back {
         Back::Terrain(units) => {
             march::run(&units.stepper, &units.interpolator, line);
-            units.interpolator.run(line);
-            units.shader.run(line);
+            units.shade(line);
         }
         Back::Plane(shader) => shader.run(line),
     }
@@ -56,6 +55,16 @@ fn run_units<W: Complete + Enterable>(setup: &Setup<W>, number: u32, line: &mut 
 
 /// Draws a whole frame on all threads.
 pub fn render<W: Complete + Enterable>(setup: &Setup<W>, plan: &Plan, buffers: bool) -> Frame {
+    render_and_look(setup, plan, buffers, &|_| {})
+}
+
+/// Draws a whole frame and shows every finished line to `look`, in no particular order.
+pub fn render_and_look<W: Complete + Enterable>(
+    setup: &Setup<W>,
+    plan: &Plan,
+    buffers: bool,
+    look: &(impl Fn(&Line<W>) + Sync),
+) -> Frame {
     let bands: Vec<FrameBuilder<'_>> = (0..setup.lines.div_ceil(BAND))
         .into_par_iter()
         .map_init(
@@ -65,6 +74,7 @@ pub fn render<W: Complete + Enterable>(setup: &Setup<W>, plan: &Plan, buffers: b
                 let mut builder = FrameBuilder::new(plan, lines.len(), buffers, false);
                 for number in lines {
                     run_line(setup, number, line);
+                    look(line);
                     builder.push(line);
                 }
                 builder

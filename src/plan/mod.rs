@@ -33,8 +33,8 @@ pub enum PlanError {
     },
     /// The eye is below the surface.
     #[error(
-        "camera.position: the eye is at height {eye}, the ground under it at {ground}: it would \
-         look from under the ground; raise y above {ground}"
+        "camera.position: the eye is at height {eye:.6}, the ground under it at {ground:.6}: it \
+         would look from under the ground; raise y above {ground:.6}"
     )]
     EyeUnderGround {
         /// Height of the eye, scene units.
@@ -69,6 +69,16 @@ pub enum PlanError {
         /// What is wrong and what to do.
         reason: String,
     },
+}
+
+impl PlanError {
+    /// The reason alone, without field and remedy.
+    fn reason(&self) -> String {
+        match self {
+            Self::Range { reason, .. } => reason.clone(),
+            other => other.to_string(),
+        }
+    }
 }
 
 /// A word size of the stock world.
@@ -236,15 +246,18 @@ impl Plan {
     }
 }
 
+/// A shift that leaves no bit of any word.
+pub(crate) const ALL_BITS: u32 = 63;
+
 /// Whether the kernel's weights are the hat's in every bit, in stock registers of `words` or in the
 /// scene's own formats.
 pub(crate) fn kernel_is_hat(scene: &Scene, words: WordClass) -> bool {
     let kernel = &scene.kernel;
-    let weight_width = if scene.formats.is_empty() { words.width } else { 64 };
+    let last = if scene.formats.is_empty() { words.width - 1 } else { ALL_BITS };
     match kernel.deformation {
         Deformation::None => kernel.shape == KernelShape::Hat,
         Deformation::Blend { weight_shift } => {
-            kernel.shape == KernelShape::Hat || weight_shift >= weight_width - 1
+            kernel.shape == KernelShape::Hat || weight_shift >= last
         }
         Deformation::Stretch => false,
     }
@@ -270,32 +283,63 @@ impl PlanePlan {
         let axes = plane_axes(plane.normal);
         let eye = axes.map(|axis| axis.dot(geometry.eye) / plane.checker);
         let farthest = eye[0].abs().max(eye[1].abs());
-        // Positions need the eye and the quotient; products are formed from values below 2^24.
-        let fits = |words: WordClass| {
+        let numerator = plane.distance - plane.normal.dot(geometry.eye);
+        let drift = f64::from(geometry.columns) + f64::from(geometry.lines);
+        // `coarsest`: the last bit of a position in pixels of the nearest point.
+        let fits = |words: WordClass, coarsest: f64| -> Result<u32, PlanError> {
+            let ulp = |point: u32| libm::exp2(-f64::from(point));
+            // Positions hold the eye and the quotient.
             let limit = words.ground_limit();
-            let range = (limit.log2() as u32) - 1;
-            (farthest + libm::exp2(f64::from(range)) <= limit).then_some(range)
-        };
-        let fine = geometry.finest_angle * libm::exp2(f64::from(WordClass::NARROW.view_point))
-            / (f64::from(geometry.columns) + f64::from(geometry.lines));
-        let narrow = if fine < 64.0 { None } else { fits(WordClass::NARROW) };
-        let (words, range, words_why) = match (scene.machine.words, narrow, fits(WordClass::WIDE)) {
-            (WordSize::Auto | WordSize::Narrow, Some(range), _) => {
-                (WordClass::NARROW, range, "positions fit".to_owned())
-            }
-            (WordSize::Auto, None, Some(range)) => {
-                (WordClass::WIDE, range, "32 bits do not hold the eye or the screen".to_owned())
-            }
-            (WordSize::Wide, _, Some(range)) => (WordClass::WIDE, range, "asked for".to_owned()),
-            _ => {
+            let range = libm::log2(limit) as u32 - 1;
+            if farthest + libm::exp2(f64::from(range)) > limit {
                 return Err(PlanError::Range {
                     field: "camera.position",
                     reason: format!("the eye is {farthest:.0} squares from the origin"),
-                    remedy: "move it closer, enlarge surface.checker, or leave machine.words at auto",
+                    remedy: "move it closer, or enlarge surface.checker",
                 });
             }
+            if drift * ulp(words.view_point + 1) > geometry.finest_angle / 128.0 {
+                return Err(PlanError::Range {
+                    field: "screen.size",
+                    reason: "the roundings of the view coefficients add up to more than 1/128 \
+                             pixel"
+                        .into(),
+                    remedy: "draw fewer or coarser pixels",
+                });
+            }
+            // The nearest point of the plane is |F| away: a pixel is at least so large there.
+            let pixel = numerator.abs() * geometry.finest_angle / plane.checker;
+            if numerator != 0.0 && ulp(words.ground_point) > pixel * coarsest {
+                return Err(PlanError::Range {
+                    field: "camera.position",
+                    reason: format!(
+                        "the eye is {:e} above the plane, where the last bit of a position is \
+                         {:.2} pixel",
+                        numerator.abs(),
+                        ulp(words.ground_point) / pixel
+                    ),
+                    remedy: "move it away from the plane, or make surface.checker smaller",
+                });
+            }
+            Ok(range)
         };
-        let numerator = plane.distance - plane.normal.dot(geometry.eye);
+        let (words, range, words_why) = match scene.machine.words {
+            WordSize::Narrow => (
+                WordClass::NARROW,
+                fits(WordClass::NARROW, 0.5)?,
+                "asked for, and proved".to_owned(),
+            ),
+            WordSize::Wide => {
+                (WordClass::WIDE, fits(WordClass::WIDE, 0.5)?, "asked for".to_owned())
+            }
+            WordSize::Auto => match fits(WordClass::NARROW, 1.0 / 64.0) {
+                Ok(range) => (WordClass::NARROW, range, "positions and pixels fit".to_owned()),
+                Err(refusal) => {
+                    let why = format!("32 bits do not do: {}", refusal.reason());
+                    (WordClass::WIDE, fits(WordClass::WIDE, 0.5)?, why)
+                }
+            },
+        };
         let (normal, checker) = (plane.normal, plane.checker);
         Ok(Self { words, words_why, normal, checker, axes, eye, numerator, range })
     }

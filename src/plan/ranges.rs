@@ -56,7 +56,7 @@ pub struct WalkPlan {
     pub range: u32,
     /// Largest magnitude a position register takes.
     pub extreme: f64,
-    /// Halvings at distance one, and the most that leave bits in the step.
+    /// Halvings at distance one.
     pub halving_bias: i32,
 }
 
@@ -181,7 +181,7 @@ impl WalkPlan {
         let walk = reach.max(deep).ceil();
         // Steps are between 2^-k-1 and 2^-k in their largest component.
         let last = walk * libm::exp2(f64::from(fineness) + 1.0);
-        let range = reach.log2().ceil().max(0.0) as u32;
+        let range = libm::log2(reach).ceil().max(0.0) as u32;
         let quotient = libm::exp2(f64::from(range));
         let extent = match terrain.outside {
             Outside::Sky => nodes[0].max(nodes[1]).max(eye_x.abs()).max(eye_z.abs()),
@@ -211,7 +211,7 @@ impl WalkPlan {
         }
         // Step and distance lie along one ray, so their largest components are in the ratio of
         // their lengths: 2^-k · 2^-n <= 2^e · finest_angle / 32 (equation 22).
-        let halving_bias = (32.0 / geometry.finest_angle).log2().ceil() as i32 - fineness as i32;
+        let halving_bias = libm::log2(32.0 / geometry.finest_angle).ceil() as i32 - fineness as i32;
         Ok(Self {
             words,
             words_why: format!(
@@ -231,10 +231,5 @@ impl WalkPlan {
             extreme,
             halving_bias,
         })
-    }
-
-    /// The most halvings that leave bits in a step.
-    pub fn halving_cap(&self, fineness: u32) -> u32 {
-        self.words.ground_point - fineness - 1
     }
 }

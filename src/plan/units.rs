@@ -221,7 +221,18 @@ impl<W: World> Describe<'_, W> {
         use Register as R;
         let idle = self.plan.fitted.idle;
         let without = |name, saves| {
-            self.unit(name, false, idle, "the scene has no height map".into(), &[], saves)
+            self.unit(
+                name,
+                false,
+                idle,
+                if idle {
+                    "idle, the scene has no height map".into()
+                } else {
+                    "the scene has no height map".into()
+                },
+                &[],
+                saves,
+            )
         };
         vec![
             without("stepper", "all steps of all rays"),

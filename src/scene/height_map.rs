@@ -13,7 +13,7 @@ use thiserror::Error;
 pub const MAX_SIDE: u32 = 16384;
 
 /// A map has at most this many nodes.
-pub const MAX_NODES: u64 = 1 << 27;
+pub const MAX_NODES: u64 = 1 << 26;
 
 /// Two bytes a node and some more: PNG stores what it cannot compress almost as it is.
 const MAX_FILE_BYTES: u64 = 2 * MAX_NODES + (16 << 20);

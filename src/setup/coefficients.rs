@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::SetupError;
 use super::memory::{Memory, load};
+use crate::frame::Hit;
 use crate::plan::geometry::{LinearScalar, LinearVector};
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanePlan};
@@ -13,7 +14,7 @@ use crate::unit::interpolator::Interpolator;
 use crate::unit::projector::{Linear, Projector};
 use crate::unit::shader::{Flat, Light, PlaneShader, Ramp, Segment, TerrainShader};
 use crate::unit::stepper::{HalvingRule, Stepper};
-use crate::word::{Dividing, Load, Open, Ratio, Register, Word};
+use crate::word::{Dividing, Load, Open, Ratio, Register, Word, World};
 
 /// View vector and denominator as the projector accumulates them, scaled by powers of two.
 #[derive(Clone, Debug)]
@@ -126,6 +127,7 @@ impl Coefficients {
             Ground::Plane(plane) => (plane.eye[0], plane.eye[1], plane.range),
         };
         let exponent = self.denominator_exponent - self.view_exponent;
+        let range = quotient_range(world, range);
         let ratio = |register| Ratio { exponent, range, format: world.ground(register) };
         let ground = |value, register| load(value, register, world.ground(register));
         let point = world.fixed(Register::GroundX).map_or(0, |format| format.point);
@@ -137,6 +139,15 @@ impl Coefficients {
             bits: range + point + 1,
         }))
     }
+}
+
+/// The range of quotients: the planned one, or that of registers made narrower, so that no quotient
+/// wraps.
+fn quotient_range<W: World>(world: &W, planned: u32) -> u32 {
+    [Register::GroundX, Register::GroundZ]
+        .into_iter()
+        .filter_map(|register| world.fixed(register))
+        .fold(planned, |range, f| range.min(f.width.saturating_sub(f.point + 1)))
 }
 
 /// In-plane view and n·V.
@@ -171,6 +182,8 @@ pub(super) fn stepper<W: Open>(
     let height = |value| load(value, Register::RayY, world.height(Register::RayY));
     let heights = &memory.heights;
     let ends = heights.edge() == crate::unit::height_memory::Edge::Ends;
+    // The real world halves as often as the stock one of this plan.
+    let point = world.fixed(Register::GroundX).map_or(walk.words.ground_point, |f| f.point);
     Ok(Stepper {
         from_eye: walk.from_eye,
         eye_x: ground(walk.eye.x, Register::GroundX)?,
@@ -184,10 +197,16 @@ pub(super) fn stepper<W: Open>(
             Halvings::Fixed(times) => HalvingRule::Fixed(times),
             Halvings::Footprint => HalvingRule::Footprint {
                 bias: walk.halving_bias,
-                cap: walk.halving_cap(scene.stepper.fineness),
+                // A step keeps a bit.
+                cap: point.saturating_sub(scene.stepper.fineness + 1),
             },
         },
         pyramid: memory.pyramid.clone(),
+        beyond: if ends && quotient_range(world, walk.range) == walk.range {
+            Hit::Sky
+        } else {
+            Hit::Far
+        },
         extent: ends.then(|| (heights.columns(), heights.rows())),
         format_x: world.ground(Register::GroundX),
         format_z: world.ground(Register::GroundZ),
@@ -261,12 +280,10 @@ pub(super) fn terrain_shader<W: Open>(
         };
         Ok([channel(0)?, channel(1)?, channel(2)?])
     };
-    let format = world.height(Register::Node);
     Ok(TerrainShader {
         flat: flat(&scene.color),
         light,
         ramp: Ramp {
-            lowest: W::Height::zero(format),
             exponent,
             gain: tone(gain, Register::Ramp)?,
             segments: scene.color.ramp.windows(2).map(segment).collect::<Result<_, _>>()?,

@@ -1,6 +1,6 @@
 //! Register formats of the sweep world: the stock formats, overridden by `[format]` and `--format`.
 
-use crate::plan::{Plan, PlanError, WordClass};
+use crate::plan::{Ground, Plan, PlanError, WordClass};
 use crate::scene::{FormatRequest, Scene};
 use crate::word::sweep::{Sweep, SweepFormat};
 use crate::word::{Class, Overflow, Register, Rounding};
@@ -34,9 +34,24 @@ fn named(name: &str) -> Option<Vec<Register>> {
 /// The sweep world of a scene: stock formats of `words`, with the scene's overrides.
 ///
 /// # Errors
-/// If a name is not that of a register or class, or the register follows another one.
+/// If a name is not that of a register or class, the register follows another one, or a position
+/// does not hold a step.
 pub fn sweep(scene: &Scene, plan: &Plan) -> Result<Sweep, PlanError> {
-    sweep_of(plan.words(), &scene.formats, scene.seed)
+    let world = sweep_of(plan.words(), &scene.formats, scene.seed)?;
+    let least = scene.stepper.fineness + 1;
+    for register in [Register::GroundX, Register::GroundZ, Register::RayY] {
+        let point = u32::from(world.format(register).point);
+        if matches!(plan.ground, Ground::Terrain(_)) && point < least {
+            return Err(PlanError::Format {
+                name: register.name().to_owned(),
+                reason: format!(
+                    "{point} bits after the point do not hold a step of 2^-{least} cells; give \
+                     at least {least}, or lower stepper.fineness"
+                ),
+            });
+        }
+    }
+    Ok(world)
 }
 
 /// See [`sweep`].

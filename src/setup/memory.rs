@@ -6,13 +6,13 @@ use rayon::prelude::*;
 
 use super::kernel;
 use crate::plan::ranges::WalkPlan;
-use crate::plan::{Ground, Plan, kernel_is_hat};
+use crate::plan::{ALL_BITS, Ground, Plan};
 use crate::scene::{Deformation, Kernel, KernelShape, Outside, Scene, Surface, Terrain};
 use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
 use crate::unit::kernel_rom::KernelRom;
 use crate::unit::pyramid::Pyramid;
-use crate::word::{Load, Open, Register, Word, World};
+use crate::word::{Load, Open, Register, World};
 
 /// Entries per unit of the reciprocal-square-root table, as a power of two.
 const RSQRT_LOG2: u32 = 10;
@@ -54,7 +54,7 @@ impl<W: Open> Memory<W> {
             return Ok(None);
         };
         let heights = heights(world, terrain, walk)?;
-        let form = form(scene, plan, heights.nodes());
+        let form = form(&scene.kernel, plan);
         let radius = i32::from(form == Form::Stretch);
         let pyramid = plan.fitted.pyramid.then(|| Arc::new(Pyramid::new(&heights, radius)));
         let rom = match form {
@@ -106,20 +106,16 @@ fn heights<W: Open>(
 }
 
 /// The smallest form that gives the kernel's bits; the full machine's form where all is fitted.
-fn form<T: Word>(scene: &Scene, plan: &Plan, nodes: &[T]) -> Form {
-    let kernel = &scene.kernel;
-    let constant = nodes.iter().all(|node| *node == nodes[0]);
+fn form(kernel: &Kernel, plan: &Plan) -> Form {
     match kernel.deformation {
-        // Every form is exact on a constant map; the hat's needs no ROM.
-        _ if constant && !plan.full => Form::Hat,
+        // Constant maps, too: every form is exact on them.
+        _ if !plan.fitted.kernel_rom => Form::Hat,
         Deformation::Stretch => Form::Stretch,
-        // The general datapath: a shift by the width is the hat, one by zero the kernel.
-        _ if plan.full && kernel.shape == KernelShape::Hat => Form::Blend(63),
+        // The general datapath: a shift by all bits is the hat, one by zero the kernel.
+        _ if plan.full && kernel.shape == KernelShape::Hat => Form::Blend(ALL_BITS),
         Deformation::None if plan.full => Form::Blend(0),
-        Deformation::Blend { weight_shift } if plan.full => Form::Blend(weight_shift.min(63)),
-        _ if kernel_is_hat(scene, plan.words()) => Form::Hat,
         Deformation::None => Form::Plain,
-        Deformation::Blend { weight_shift } => Form::Blend(weight_shift),
+        Deformation::Blend { weight_shift } => Form::Blend(weight_shift.min(ALL_BITS)),
     }
 }
 

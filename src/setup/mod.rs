@@ -111,14 +111,21 @@ impl<W: Complete> Setup<W> {
     }
 }
 
+impl<W: Interpolating + Shading> TerrainUnits<W> {
+    /// Runs the units behind the stepper on a line.
+    pub fn shade(&self, line: &mut Line<W>) {
+        self.interpolator.run(line);
+        self.shader.run(line);
+    }
+}
+
 impl<W: Interpolating + Shading> Setup<W> {
     /// Runs the units behind the divider on a line.
     pub fn run_back(&self, line: &mut Line<W>) {
         match &self.back {
             Back::Terrain(units) => {
                 units.stepper.run(line, &units.interpolator);
-                units.interpolator.run(line);
-                units.shader.run(line);
+                units.shade(line);
             }
             Back::Plane(shader) => shader.run(line),
         }

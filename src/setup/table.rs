@@ -51,7 +51,7 @@ pub fn entry(register: Register) -> Entry {
         R::ViewY => row("projector", "view vector along y", "height units × 2^e", "5, 6", VIEW),
         R::ViewZ => row("projector", "view vector along z", "cells × 2^e", "5, 6", VIEW),
         R::Denominator => {
-            row("projector", "s n·V/|F|, positive towards the plane", "2^d", "8, 9", VIEW)
+            row("projector", "s n·V / abs(F), positive towards the plane", "2^d", "8, 9", VIEW)
         }
         R::GroundX => row("divider, stepper", "position, x", "cells", "9, 19", "(30), (31)"),
         R::GroundZ => row("divider, stepper", "position, z", "cells", "9, 19", "(30), (31)"),

@@ -78,10 +78,12 @@ impl Sample {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sheet {
-    /// Neither hits.
+    /// Neither meets the surface: both miss, or both meet the side of the map.
     Empty,
     /// Both hit, with no other crossing between.
     Same,
+    /// The machine says `Far`: what the oracle sees lies beyond the registers' range.
+    Beyond,
     /// One hits and the other does not, they meet different kinds of surface, or another sheet.
     Silhouette,
 }
@@ -107,6 +109,8 @@ pub struct PixelError {
     pub algorithm: f64,
     /// From the real one to the fixed one.
     pub quantisation: f64,
+    /// Of the interpolated surface height, at the fixed place, scene units.
+    pub height: f64,
     /// Largest difference of a channel, fixed against oracle, 0..=255.
     pub color: u8,
 }
@@ -196,11 +200,16 @@ fn one(oracle: &Oracle, line: u32, column: u32, fixed: Seen, real: Seen) -> Pixe
         total: f64::NAN,
         algorithm: f64::NAN,
         quantisation: f64::NAN,
+        height: f64::NAN,
         color,
     };
     let misses = |hit| matches!(hit, Hit::Sky | Hit::Far);
     if misses(fixed.hit) && misses(sighting.hit) {
         error.sheet = Sheet::Empty;
+        return error;
+    }
+    if fixed.hit == Hit::Far {
+        error.sheet = Sheet::Beyond;
         return error;
     }
     let centre = DVec2::new(j, k);
@@ -221,6 +230,8 @@ fn one(oracle: &Oracle, line: u32, column: u32, fixed: Seen, real: Seen) -> Pixe
         error.sheet = Sheet::Same;
         error.total_px = at.distance(centre);
         error.total = point.distance(sighting.point);
+        error.height = fixed.point.map_or(f64::NAN, |read| (read.y - point.y).abs());
+        // Where the units in f64 fall on another sheet, the two parts cannot be told apart.
         if let Some((exact, exact_at)) = placed(real) {
             error.algorithm_px = exact_at.distance(centre);
             error.algorithm = exact.distance(sighting.point);
@@ -243,16 +254,19 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of finite values; zeros where there are none.
-    pub fn of(values: impl Iterator<Item = f64>) -> Self {
-        let mut values: Vec<f64> = values.filter(|v| v.is_finite()).collect();
+    /// Of all values but NaN; `None` where there are none.
+    pub fn of(values: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut values: Vec<f64> = values.filter(|v| !v.is_nan()).collect();
+        if values.is_empty() {
+            return None;
+        }
         values.sort_by(f64::total_cmp);
         let at = |share: f64| {
             // The smallest value that at least this share of all values does not exceed.
             let rank = (share * values.len() as f64).ceil() as usize;
-            values.get(rank.max(1) - 1).copied().unwrap_or(0.0)
+            values[rank.max(1) - 1]
         };
-        Self { median: at(0.5), p999: at(0.999), max: at(1.0) }
+        Some(Self { median: at(0.5), p999: at(0.999), max: at(1.0) })
     }
 }
 
@@ -269,18 +283,22 @@ pub struct ErrorReport {
     pub same_sheet: usize,
     /// Silhouette pixels.
     pub silhouettes: usize,
+    /// Pixels that the machine calls far.
+    pub beyond: usize,
     /// Fixed point against the oracle, pixels.
-    pub total_px: Spread,
+    pub total_px: Option<Spread>,
     /// The algorithm alone, pixels.
-    pub algorithm_px: Spread,
+    pub algorithm_px: Option<Spread>,
     /// The quantisation alone, pixels.
-    pub quantisation_px: Spread,
+    pub quantisation_px: Option<Spread>,
     /// Fixed point against the oracle on the ground, metres.
-    pub total_m: Spread,
+    pub total_m: Option<Spread>,
     /// The algorithm alone, metres.
-    pub algorithm_m: Spread,
+    pub algorithm_m: Option<Spread>,
     /// The quantisation alone, metres.
-    pub quantisation_m: Spread,
+    pub quantisation_m: Option<Spread>,
+    /// The interpolated surface height against the oracle's at the same place, metres.
+    pub height_m: Option<Spread>,
     /// Share of all pixels whose colour is within 2 levels of the oracle's.
     pub color_within_2: f64,
     /// The pixel with the largest total error, as (column, line).
@@ -304,12 +322,14 @@ impl ErrorReport {
             sampled_columns: sample.columns.len(),
             same_sheet: count(Sheet::Same),
             silhouettes: count(Sheet::Silhouette),
+            beyond: count(Sheet::Beyond),
             total_px: spread(&|p| p.total_px),
             algorithm_px: spread(&|p| p.algorithm_px),
             quantisation_px: spread(&|p| p.quantisation_px),
             total_m: spread(&|p| p.total * unit_m),
             algorithm_m: spread(&|p| p.algorithm * unit_m),
             quantisation_m: spread(&|p| p.quantisation * unit_m),
+            height_m: spread(&|p| p.height * unit_m),
             color_within_2: close as f64 / pixels.len().max(1) as f64,
             worst,
         }

@@ -166,11 +166,9 @@ fn bound(
             view(Register::Denominator)?,
         ))
     };
-    let ray = |register, start, view_register, step: &str, view_name: &str| {
-        // The shift that made the step, read back from its size: both are powers of two apart.
-        let (step, view_value) = (trace.value(step)?, trace.value(view_name)?);
-        let shift = if view_value == 0.0 { 0 } else { libm::frexp((step / view_value).abs()).1 };
-        Some(bounds::ray(format(register)?, start, trace.steps, view(view_register)?, shift))
+    let ray = |register, start, view_register| {
+        let view = view(view_register)?;
+        Some(bounds::ray(format(register)?, start, trace.steps, view, trace.exponent))
     };
     let start = |what| match what {
         "x" => entry(Register::GroundX, "view, x", Register::ViewX),
@@ -183,15 +181,13 @@ fn bound(
         "entry, z" => start("z"),
         "last sample, x" => {
             let from = start("x").or(half(Register::GroundX))?;
-            ray(Register::GroundX, from, Register::ViewX, "step, x", "view, x")
+            ray(Register::GroundX, from, Register::ViewX)
         }
         "last sample, z" => {
             let from = start("z").or(half(Register::GroundZ))?;
-            ray(Register::GroundZ, from, Register::ViewZ, "step, z", "view, z")
+            ray(Register::GroundZ, from, Register::ViewZ)
         }
-        "last sample, y" => {
-            ray(Register::RayY, half(Register::RayY)?, Register::ViewY, "step, y", "view, y")
-        }
+        "last sample, y" => ray(Register::RayY, half(Register::RayY)?, Register::ViewY),
         _ => None,
     }
 }

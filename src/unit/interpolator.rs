@@ -232,7 +232,7 @@ impl<W: Interpolating> Interpolator<W> {
 }
 
 /// The operation number of the interpolation at the hit, apart from all samples of the ray.
-const AT_THE_HIT: u32 = 1 << 31;
+pub const AT_THE_HIT: u32 = 1 << 31;
 
 /// Nodes and weights of the 3×3 form.
 #[derive(Clone, Copy, Debug)]

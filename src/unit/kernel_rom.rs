@@ -51,9 +51,4 @@ impl<T: Word> KernelRom<T> {
     pub fn slope(&self, entry: usize) -> T {
         self.slope[entry]
     }
-
-    /// Entries per unit, as a power of two.
-    pub fn log2(&self) -> u32 {
-        self.log2
-    }
 }

@@ -118,8 +118,10 @@ impl<W: World> Line<W> {
         look(Register::ViewY, &|i| self.view_y[i].overflowed());
         look(Register::ViewZ, &|i| self.view_z[i].overflowed());
         look(Register::Denominator, &|i| self.denominator[i].overflowed());
-        look(Register::GroundX, &|i| self.ground_x[i].overflowed());
-        look(Register::GroundZ, &|i| self.ground_z[i].overflowed());
+        // Pixels that the divider turned away still carry what was there before.
+        let entered = |i: usize| self.entry[i] == Entry::Met;
+        look(Register::GroundX, &|i| entered(i) && self.ground_x[i].overflowed());
+        look(Register::GroundZ, &|i| entered(i) && self.ground_z[i].overflowed());
         look(Register::Surface, &|i| met(i) && self.surface[i].overflowed());
         look(Register::SlopeX, &|i| met(i) && self.slope_x[i].overflowed());
         look(Register::SlopeZ, &|i| met(i) && self.slope_z[i].overflowed());

@@ -13,7 +13,7 @@
 //! so that entering it at any pixel gives the same bits.
 
 use super::Line;
-use crate::word::{Register, Word, World};
+use crate::word::{Word, World};
 
 /// Coefficients of one accumulator.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,23 +88,6 @@ impl<W: World> Projector<W> {
         if let (Some(d), Some(c)) = (start.denominator, self.denominator) {
             accumulate(d, c.per_column, &line.column, &mut line.denominator);
         }
-    }
-
-    /// Accumulators fitted, with their registers.
-    pub fn accumulators(&self) -> impl Iterator<Item = (Register, &Linear<W::View>)> {
-        [
-            (Register::ViewX, Some(&self.x)),
-            (Register::ViewY, self.y.as_ref()),
-            (Register::ViewZ, Some(&self.z)),
-            (Register::Denominator, self.denominator.as_ref()),
-        ]
-        .into_iter()
-        .filter_map(|(register, linear)| Some((register, linear?)))
-    }
-
-    /// Additions per pixel: one per accumulator whose column increment is not zero.
-    pub fn additions_per_pixel(&self) -> u32 {
-        self.accumulators().filter(|(_, c)| c.per_column.sign() != 0).count() as u32
     }
 }
 

@@ -31,7 +31,7 @@ pub struct Pyramid<T> {
     rows: i32,
 }
 
-/// Most levels: blocks of 2^20 cells, more than any map.
+/// Room for levels: more than any map has.
 const LEVELS: usize = 32;
 
 /// Where the bounds of each level are.
@@ -121,13 +121,8 @@ impl<T: Copy + PartialOrd + Send + Sync> Pyramid<T> {
     }
 
     /// Bounds stored in all levels.
-    pub fn len(&self) -> usize {
+    pub fn stored_bounds(&self) -> usize {
         self.bounds.len()
-    }
-
-    /// Never: a map has at least one node.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// A bound of the surface in the cell at a column and row address of the height memory.

@@ -62,9 +62,7 @@ pub struct Light<W: World> {
 /// Registers of the ramp.
 #[derive(Clone, Debug)]
 pub struct Ramp<W: World> {
-    /// The lowest node.
-    pub lowest: W::Height,
-    /// Heights above the lowest are shifted by this into `[0, 1)`.
+    /// Heights, which registers hold above the lowest node, are shifted by this into `[0, 1)`.
     pub exponent: i32,
     /// Segments per shifted height.
     pub gain: W::Tone,
@@ -119,7 +117,9 @@ impl<W: Shading> TerrainShader<W> {
         let shade = self.light.as_ref().map(|light| light.shade(slope_x, slope_z, site));
         let channels = match shade {
             None => color,
-            Some(shade) => color.map(|c| c.multiply(shade, site.at(Register::Channel))),
+            Some(shade) => std::array::from_fn(|at| {
+                color[at].multiply(shade, site.at(Register::Channel).step(at as u32))
+            }),
         };
         Tones { ramp, shade, channels }
     }
@@ -156,7 +156,7 @@ impl<W: Shading> Ramp<W> {
     #[inline(always)]
     pub fn place(&self, surface: W::Height, site: Site) -> W::Tone {
         let site = site.at(Register::Ramp);
-        let height: W::Tone = (surface - self.lowest).rescale(self.exponent, self.format, site);
+        let height: W::Tone = surface.rescale(self.exponent, self.format, site);
         height.multiply(self.gain, site.step(1))
     }
 
@@ -167,10 +167,14 @@ impl<W: Shading> Ramp<W> {
         let segment = place.cell().clamp(0, last);
         // The end of the ramp is the end of its last segment.
         let inside = if place.cell() > last { None } else { Some(place.fraction()) };
-        let site = site.at(Register::Channel).step(8);
-        self.segments[segment as usize].map(|(start, rise)| match inside {
-            Some(fraction) => start + rise.multiply(fraction, site),
-            None => start + rise,
+        let segment = &self.segments[segment as usize];
+        std::array::from_fn(|at| {
+            let (start, rise) = segment[at];
+            let site = site.at(Register::Channel).step(8 + at as u32);
+            match inside {
+                Some(fraction) => start + rise.multiply(fraction, site),
+                None => start + rise,
+            }
         })
     }
 }
@@ -245,8 +249,9 @@ impl<W: Shading> PlaneShader<W> {
     fn color(&self, contrast: W::Tone, odd: bool, site: Site) -> [u8; 3] {
         let site = site.at(Register::Channel);
         let mut color = [0; 3];
-        for ((out, &mean), &swing) in color.iter_mut().zip(&self.mean).zip(&self.swing) {
-            let swing = swing.multiply(contrast, site);
+        let channels = self.mean.iter().zip(&self.swing).zip(0..);
+        for (out, ((&mean, &swing), at)) in color.iter_mut().zip(channels) {
+            let swing = swing.multiply(contrast, site.step(at));
             *out = byte(if odd { mean - swing } else { mean + swing });
         }
         color

@@ -72,6 +72,8 @@ pub struct Stepper<W: World> {
     pub halvings: HalvingRule,
     /// Bounds for skipping; absent when the stepper is plain.
     pub pyramid: Option<Arc<Pyramid<W::Height>>>,
+    /// What an entry beyond the divider's range means: `Sky` where the whole map is within it.
+    pub beyond: Hit,
     /// Nodes of the map where it ends at its edge.
     pub extent: Option<(i32, i32)>,
     /// Format of x.
@@ -170,7 +172,7 @@ impl<W: World> Stepper<W> {
                 _ if self.from_eye => self.eye(),
                 Entry::Met => Place { x: line.ground_x[i], y: self.top, z: line.ground_z[i] },
                 missed => {
-                    line.hit[i] = if missed == Entry::Far { Hit::Far } else { Hit::Sky };
+                    line.hit[i] = if missed == Entry::Far { self.beyond } else { Hit::Sky };
                     line.steps[i] = 0;
                     line.work[i] = Work::default();
                     continue;
@@ -192,15 +194,21 @@ impl<W: World> Stepper<W> {
         Place { x: self.eye_x, y: self.eye_y, z: self.eye_z }
     }
 
+    /// Power of two that makes a step of a view vector (equation 20).
+    #[inline(always)]
+    pub fn exponent(&self, x: W::View, y: W::View, z: W::View) -> i32 {
+        let leading = x.leading_one().max(y.leading_one()).max(z.leading_one());
+        -(leading + 1 + self.fineness as i32)
+    }
+
     /// ΔP of a view vector (equation 20).
     #[inline(always)]
     pub fn step(&self, x: W::View, y: W::View, z: W::View, site: Site) -> Place<W> {
-        let leading = x.leading_one().max(y.leading_one()).max(z.leading_one());
-        let exponent = -(leading + 1 + self.fineness as i32);
+        let exponent = self.exponent(x, y, z);
         Place {
-            x: x.rescale(exponent, self.format_x, site.at(Register::DGroundX)),
-            y: y.rescale(exponent, self.format_y, site.at(Register::DRayY)),
-            z: z.rescale(exponent, self.format_z, site.at(Register::DGroundZ)),
+            x: x.rescale_nearest(exponent, self.format_x, site.at(Register::DGroundX)),
+            y: y.rescale_nearest(exponent, self.format_y, site.at(Register::DRayY)),
+            z: z.rescale_nearest(exponent, self.format_z, site.at(Register::DGroundZ)),
         }
     }
 

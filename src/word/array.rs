@@ -8,13 +8,11 @@
 /// remainder and adds or subtracts the denominator by the remainder's sign; the quotient bit is
 /// one where the new remainder is not negative.
 ///
-/// A negative `shift` appends zeros to the denominator instead. `denominator` is positive;
-/// magnitudes are such that `denominator · 2^(bits - shift)` and `|numerator| · 2^shift` stay below
-/// 2^126.
+/// A negative `shift` drops bits of the numerator instead, which leaves the floor as it is.
+/// `denominator` is positive and below 2^63, `bits` at most 62.
 pub fn non_restoring(numerator: i128, denominator: i128, shift: i32, bits: u32) -> Option<i128> {
     debug_assert!(denominator > 0);
-    let (numerator, denominator) = aligned(numerator, denominator, shift);
-    let biased = numerator + (denominator << (bits - 1));
+    let biased = aligned(numerator, shift)? + (denominator << (bits - 1));
     if biased < 0 || biased >= denominator << bits {
         return None;
     }
@@ -31,12 +29,18 @@ pub fn non_restoring(numerator: i128, denominator: i128, shift: i32, bits: u32) 
 
 /// The result of [`non_restoring`] by the host's own division.
 pub fn direct(numerator: i128, denominator: i128, shift: i32, bits: u32) -> Option<i128> {
-    let (numerator, denominator) = aligned(numerator, denominator, shift);
+    let numerator = aligned(numerator, shift)?;
     let limit = denominator << (bits - 1);
     (-limit <= numerator && numerator < limit).then(|| numerator.div_euclid(denominator))
 }
 
-/// Numerator and denominator with the ratio's power of two in one of them.
-fn aligned(numerator: i128, denominator: i128, shift: i32) -> (i128, i128) {
-    if shift >= 0 { (numerator << shift, denominator) } else { (numerator, denominator << -shift) }
+/// The numerator times the ratio's power of two; `None` where it is beyond every denominator's
+/// range. `floor(n / (d·2^s)) = floor(floor(n / 2^s) / d)`, so bits below may be dropped.
+fn aligned(numerator: i128, shift: i32) -> Option<i128> {
+    if shift < 0 {
+        return Some(numerator >> (-shift).min(127));
+    }
+    // 2^126 is more than any denominator below 2^63 times 2^62.
+    let room = numerator.unsigned_abs().leading_zeros() as i32 - 2;
+    if numerator == 0 || shift <= room { Some(numerator << (shift % 128)) } else { None }
 }

@@ -128,6 +128,12 @@ pub trait Rescale<To: Word>: Word {
     /// The value times a power of two (wiring and a shift), rounded to the nearest word of `To`
     /// (ties upward in stock; as the format says in a sweep).
     fn rescale(self, exponent: i32, format: To::Format, site: Site) -> To;
+
+    /// The same, rounded to nearest whatever the format says: where a bound of the result is part
+    /// of the algorithm.
+    fn rescale_nearest(self, exponent: i32, format: To::Format, site: Site) -> To {
+        self.rescale(exponent, format, site)
+    }
 }
 
 /// A position over a grid: integer part and fraction.

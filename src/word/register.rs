@@ -1,4 +1,4 @@
-//! The names of the registers. Their table (formats, meaning, bounds) is in `setup::registers`.
+//! The names of the registers. Their table (formats, meaning, bounds) is in `setup::table`.
 
 /// Class of a register: registers of one class have one word type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

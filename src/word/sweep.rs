@@ -172,6 +172,12 @@ impl Rescale<SweepWord> for SweepWord {
             format.word(self.bits() << (-places).min(63), self.overflowed)
         }
     }
+
+    fn rescale_nearest(self, exponent: i32, format: SweepFormat, site: Site) -> SweepWord {
+        let nearest = SweepFormat { rounding: Rounding::Nearest, ..format };
+        let word = self.rescale(exponent, nearest, site);
+        SweepWord { format, ..word }
+    }
 }
 
 impl Cell for SweepWord {

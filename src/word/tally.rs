@@ -134,6 +134,14 @@ impl<T: Rescale<U>, U: Word> Rescale<TallyWord<U>> for TallyWord<T> {
         });
         TallyWord(self.0.rescale(exponent, format, site))
     }
+
+    fn rescale_nearest(self, exponent: i32, format: U::Format, site: Site) -> TallyWord<U> {
+        count(|c| {
+            c.shifts += 1;
+            c.additions += 1;
+        });
+        TallyWord(self.0.rescale_nearest(exponent, format, site))
+    }
 }
 
 impl<T: Cell> Cell for TallyWord<T> {

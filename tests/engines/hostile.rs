@@ -4,13 +4,12 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use glam::{DVec2, DVec3};
-use terraline::engine::draw_real;
 use terraline::plan::Plan;
 use terraline::scene::{
     Deformation, Extent, Halvings, KernelShape, Outside, Scene, Stepper, StepperMode,
 };
 
-use super::support::{both, builtin, difference, map, over, terrain};
+use super::support::{both, builtin, difference, draw_in_real, map, over, terrain};
 
 fn hills() -> Scene {
     over(map(12, 9, |i, j| ((i * 7 + j * 11) % 13) as f32), 19, 13)
@@ -120,7 +119,7 @@ fn hostile_scenes_are_refused_or_drawn() {
             let attempt = catch_unwind(AssertUnwindSafe(|| {
                 let plan = Plan::new(&scene, None, full).map_err(|error| error.to_string())?;
                 let frames = both(&scene, &plan).map_err(|error| error.to_string())?;
-                let real = draw_real(&scene, &plan, true).map_err(|error| error.to_string())?;
+                let real = draw_in_real(&scene, &plan).map_err(|error| error.to_string())?;
                 assert_eq!(real.hit.len(), frames.0.hit.len());
                 Ok::<_, String>(frames)
             }));

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
-use terraline::engine::{FixedWorld, InFixedWorld, draw_by_lines};
+use terraline::engine::{FixedWorld, InFixedWorld, draw_by_lines, draw_real};
 use terraline::fast::{self, enter::Enterable};
 use terraline::frame::{Frame, Hit};
 use terraline::oracle::Oracle;
@@ -21,6 +21,7 @@ use terraline::scene::{
 };
 use terraline::setup::{Memory, Setup, SetupError};
 use terraline::word::Complete;
+use terraline::word::real::Real;
 
 /// Names of the built-in scenes with a height map.
 pub const TERRAINS: [&str; 3] = ["overview", "flight", "valley"];
@@ -234,4 +235,10 @@ pub fn assert_same(what: &str, a: &Frame, b: &Frame) {
 /// Height of the surface under the eye of a scene with a terrain, by the oracle.
 pub fn ground_under(scene: &Scene, x: f64, z: f64) -> Option<f64> {
     Oracle::new(scene, &scene.screens[0]).surface_height(x, z)
+}
+
+/// A frame of the real world, with buffers.
+pub fn draw_in_real(scene: &Scene, plan: &Plan) -> Result<Frame, SetupError> {
+    let memory = Memory::new(&Real, scene, plan)?;
+    draw_real(scene, plan, memory.as_ref(), true)
 }

@@ -96,7 +96,7 @@ impl Render {
             Some(Worst {
                 column,
                 line,
-                error_px: errors.total_px.max,
+                error_px: errors.total_px?.max,
                 explain: format!("terraline explain {invocation} --pixel {column},{line}"),
             })
         });
@@ -113,7 +113,7 @@ impl Render {
             units: world.run(Units { planned }),
             frame_ms: Times {
                 min: times[0],
-                median: times[times.len() / 2],
+                median: (times[(times.len() - 1) / 2] + times[times.len() / 2]) / 2.0,
                 max: times[times.len() - 1],
                 runs: times.len(),
             },
@@ -240,8 +240,11 @@ impl Render {
 }
 
 fn error_lines(errors: &ErrorReport) -> Vec<String> {
-    let row = |name: &str, px: Spread, m: Spread| {
+    let row = |name: &str, px: Option<Spread>, m: Option<Spread>| {
         let digits = report::digits;
+        let (Some(px), Some(m)) = (px, m) else {
+            return format!("            {name:<13} no pixel on the same sheet");
+        };
         format!(
             "            {name:<13} {:>9} {:>9} {:>9} px {:>9} {:>9} {:>9} m",
             digits(px.median),
@@ -252,10 +255,14 @@ fn error_lines(errors: &ErrorReport) -> Vec<String> {
             digits(m.max)
         )
     };
+    let beyond = match errors.beyond {
+        0 => String::new(),
+        count => format!(", {count} far"),
+    };
     vec![
         format!(
-            "  error     against the oracle on {} pixels ({} lines x {} columns): {} on the same \
-             sheet, {} silhouettes",
+            "  error     against the oracle on {} pixels (a grid of {} lines x {} columns): {} on \
+             the same sheet, {} silhouettes{beyond}",
             errors.pixels,
             errors.sampled_lines,
             errors.sampled_columns,

@@ -9,7 +9,7 @@ use crate::scene::Scene;
 use crate::setup::{Back, Memory, Setup, SetupError, TerrainUnits};
 use crate::unit::Line;
 use crate::unit::divider::Method;
-use crate::unit::interpolator::Form;
+use crate::unit::interpolator::{AT_THE_HIT, Form};
 use crate::unit::line::{Entry, Work};
 use crate::unit::stepper::Place;
 use crate::word::{Cell, Complete, Fixed, Readout, Register, Site};
@@ -32,6 +32,8 @@ pub(super) struct Trace {
     pub steps: u32,
     pub work: Work,
     pub color: [u8; 3],
+    /// Power of two from view vector to step.
+    pub exponent: i32,
     pub readings: Vec<Reading>,
     pub formats: Vec<Option<Fixed>>,
 }
@@ -99,6 +101,7 @@ impl Walk<'_> {
             steps: line.steps[0],
             work: line.work[0],
             color: line.color[0],
+            exponent: 0,
             readings: Vec::new(),
             formats: Register::ALL.iter().map(|&register| world.fixed(register)).collect(),
         };
@@ -149,6 +152,7 @@ impl Walk<'_> {
         };
         trace.unit("stepper");
         trace.place("start of the ray", place);
+        trace.exponent = stepper.exponent(line.view_x[0], line.view_y[0], line.view_z[0]);
         trace.read(Register::DGroundX, "step, x", step.x);
         trace.read(Register::DRayY, "step, y", step.y);
         trace.read(Register::DGroundZ, "step, z", step.z);
@@ -215,8 +219,8 @@ impl Walk<'_> {
             for (node, name) in interpolator.nodes(x, z).into_iter().zip(["h1", "h2", "h3", "h4"]) {
                 trace.read(Register::Node, format!("node {name}"), node);
             }
-            let arm_x = interpolator.arm(x.fraction(), site);
-            let arm_z = interpolator.arm(z.fraction(), site);
+            let arm_x = interpolator.arm(x.fraction(), site.step(AT_THE_HIT ^ 1));
+            let arm_z = interpolator.arm(z.fraction(), site.step(AT_THE_HIT));
             trace.read(Register::Weight, "weight, x", arm_x.weight);
             trace.read(Register::Weight, "weight, z", arm_z.weight);
             trace.read(Register::WeightSlope, "weight slope, x", arm_x.slope);

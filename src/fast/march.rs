@@ -346,8 +346,9 @@ fn refine<W: Interpolating>(stepper: &Stepper<W>, surface: &Interpolator<W>, lan
         }
         let (clear, step) = (lanes.place(lane), lanes.step(lane));
         let meets = memory.contains(clear.x.cell(), clear.z.cell());
-        lanes.outcome[lane] = if meets { Hit::Surface } else { Hit::Side };
-        lanes.set(lane, clear.plus(step.halved(times[lane] + u32::from(meets))));
+        let place = clear.plus(step.halved(times[lane] + u32::from(meets)));
+        lanes.outcome[lane] = if meets { Hit::Surface } else { stepper.beside(place, step) };
+        lanes.set(lane, place);
     }
 }
 

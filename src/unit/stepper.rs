@@ -317,8 +317,16 @@ impl<W: World> Stepper<W> {
             let place = clear.plus(step.halved(times + 1));
             Walk { hit: Hit::Surface, place, index, work }
         } else {
-            Walk { hit: Hit::Side, place: clear.plus(step.halved(times)), index, work }
+            let place = clear.plus(step.halved(times));
+            Walk { hit: self.beside(place, step), place, index, work }
         }
+    }
+
+    /// What a ray meets where it comes from beside the map under the surface: the side, down to the
+    /// base.
+    #[inline(always)]
+    pub fn beside(&self, place: Place<W>, step: Place<W>) -> Hit {
+        if step.y.sign() <= 0 && place.y < self.base { Hit::Sky } else { Hit::Side }
     }
 
     /// Where a ray of this step is heading.

@@ -64,6 +64,9 @@ fn text(scene: &str, world: &str, e: &Explanation) -> String {
         }
         out.push(line_of(row));
     }
+    if let Some(why) = e.turned_away {
+        out.push(format!("the ray ends at the divider: {why}"));
+    }
     out.join("\n")
 }
 

@@ -69,6 +69,8 @@ pub struct Explanation {
     pub color: [u8; 3],
     /// sRGB bytes: oracle.
     pub oracle_color: [u8; 3],
+    /// Why the ray ended at the divider, if it did.
+    pub turned_away: Option<&'static str>,
     /// Registers in the order of the data flow.
     pub rows: Vec<Row>,
 }
@@ -141,6 +143,7 @@ pub fn explain(
         halvings: fixed.work.halvings,
         color: fixed.color,
         oracle_color: sighting.color,
+        turned_away: fixed.turned_away,
         rows,
     })
 }

@@ -32,6 +32,8 @@ pub(super) struct Trace {
     pub steps: u32,
     pub work: Work,
     pub color: [u8; 3],
+    /// Why the divider turned the ray away, if it did.
+    pub turned_away: Option<&'static str>,
     /// Power of two from view vector to step.
     pub exponent: i32,
     pub readings: Vec<Reading>,
@@ -101,6 +103,7 @@ impl Walk<'_> {
             steps: line.steps[0],
             work: line.work[0],
             color: line.color[0],
+            turned_away: None,
             exponent: 0,
             readings: Vec::new(),
             formats: Register::ALL.iter().map(|&register| world.fixed(register)).collect(),
@@ -112,6 +115,13 @@ impl Walk<'_> {
         trace.read(Register::ViewZ, "view, z", line.view_z[0]);
         if setup.divider.is_some() {
             trace.read(Register::Denominator, "denominator", line.denominator[0]);
+            trace.turned_away = match entered.entry[0] {
+                Entry::Met => None,
+                Entry::Sky => {
+                    Some("the denominator is not positive: the ray does not meet the plane")
+                }
+                Entry::Far => Some("the quotient is out of range: the entry lies beyond it"),
+            };
             if entered.entry[0] == Entry::Met {
                 trace.unit("divider");
                 trace.read(Register::GroundX, "entry, x", entered.ground_x[0]);
@@ -140,6 +150,10 @@ impl Walk<'_> {
         trace: &mut Trace,
     ) {
         let stepper = &units.stepper;
+        if stepper.from_eye {
+            // A full machine's divider runs for nothing here.
+            trace.turned_away = None;
+        }
         if !stepper.from_eye && entered.entry[0] != Entry::Met {
             return;
         }

@@ -1,7 +1,6 @@
 //! Each unit, in time per pixel, in each number world: one line through the middle of `overview`,
 //! and the plane's shader on a line of `plane`.
 
-#[allow(dead_code)]
 mod support;
 
 use criterion::measurement::WallTime;

@@ -2,7 +2,7 @@
 
 use crate::unit::interpolator::{Form, Interpolator, mix};
 use crate::unit::stepper::SurfaceUnit;
-use crate::word::{Cell, Interpolating, Site, World};
+use crate::word::{Cell, Interpolating, Site};
 
 /// Rays that walk together: one vector of 32-bit words at the widest SIMD level.
 pub const LANES: usize = 16;
@@ -41,13 +41,9 @@ pub fn heights<W: Interpolating>(
             kernel_z[lane] = rom.weight(rom.entry(z[lane].fraction()));
         }
     }
-    let (weights_x, weights_z) = match unit.form {
-        Form::Plain if unit.rom.is_some() => (kernel_x, kernel_z),
-        Form::Blend(shift) if unit.rom.is_some() => {
-            (blend(unit, x, &kernel_x, shift, sites, 1), blend(unit, z, &kernel_z, shift, sites, 0))
-        }
-        _ => (hat(unit, x, sites, 1), hat(unit, z, sites, 0)),
-    };
+    // The axes' operations are set apart as in the unit.
+    let weights_x = weights(unit, x, &kernel_x, sites, 1);
+    let weights_z = weights(unit, z, &kernel_z, sites, 0);
     for lane in 0..LANES {
         let four = [nodes[0][lane], nodes[1][lane], nodes[2][lane], nodes[3][lane]];
         out[lane] = mix(four, weights_x[lane], weights_z[lane], sites[lane]);
@@ -55,35 +51,40 @@ pub fn heights<W: Interpolating>(
     out
 }
 
-/// `axis` sets the operations of the two axes apart, as in the unit.
+/// Weights of one axis from the places and the ROM's entries: `Interpolator::weight` with its
+/// choice of form outside the loops.
 #[inline(always)]
-fn blend<W: Interpolating>(
+fn weights<W: Interpolating>(
     unit: &Interpolator<W>,
     place: &[W::Ground; LANES],
     kernel: &[W::Weight; LANES],
-    shift: u32,
     sites: &[Site; LANES],
     axis: u32,
 ) -> [W::Weight; LANES] {
-    let mut out = [unit.one; LANES];
-    for lane in 0..LANES {
-        let site = sites[lane].step(sites[lane].operation ^ axis);
-        out[lane] = unit.blend(place[lane].fraction(), kernel[lane], shift, site);
+    match unit.form {
+        Form::Plain if unit.rom.is_some() => *kernel,
+        Form::Blend(shift) if unit.rom.is_some() => {
+            each(place, kernel, sites, axis, |place, kernel, site| {
+                unit.blend(place.fraction(), kernel, shift, site)
+            })
+        }
+        _ => each(place, kernel, sites, axis, |place, _, site| unit.hat(place.fraction(), site)),
     }
-    out
 }
 
+/// One weight per lane.
 #[inline(always)]
-fn hat<W: Interpolating>(
-    unit: &Interpolator<W>,
-    place: &[<W as World>::Ground; LANES],
+fn each<G: Copy, T: Copy>(
+    place: &[G; LANES],
+    kernel: &[T; LANES],
     sites: &[Site; LANES],
     axis: u32,
-) -> [W::Weight; LANES] {
-    let mut out = [unit.one; LANES];
+    weight: impl Fn(G, T, Site) -> T,
+) -> [T; LANES] {
+    let mut out = *kernel;
     for lane in 0..LANES {
         let site = sites[lane].step(sites[lane].operation ^ axis);
-        out[lane] = unit.hat(place[lane].fraction(), site);
+        out[lane] = weight(place[lane], kernel[lane], site);
     }
     out
 }

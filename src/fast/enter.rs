@@ -3,13 +3,38 @@
 //! In wrapping fixed point `start + k·step` is k additions (equation 7 of docs/mathematics.md),
 //! so lines are independent of each other and a line's columns fill in parallel.
 
+use super::march;
+use crate::setup::TerrainUnits;
 use crate::unit::Line;
 use crate::unit::projector::{LineStart, Linear, Projector};
-use crate::word::{Enter, World};
+use crate::word::stock::{Narrow, Wide};
+use crate::word::sweep::Sweep;
+use crate::word::{Enter, Interpolating, World};
 
-/// A world whose accumulators may be entered anywhere.
-pub trait Enterable: World<View: Enter> {}
-impl<W: World<View: Enter>> Enterable for W {}
+/// A world whose accumulators may be entered anywhere, and how its rays walk in the fast engine.
+pub trait Enterable: Interpolating + World<View: Enter> {
+    /// Runs the stepper on neighbouring lines, one by one where the world has no quicker way.
+    #[inline(always)]
+    fn walk(units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
+        for line in lines {
+            units.stepper.run(line, &units.interpolator);
+        }
+    }
+}
+
+impl Enterable for Sweep {}
+impl Enterable for Narrow {
+    #[inline(always)]
+    fn walk(units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
+        march::walk(units, lines);
+    }
+}
+impl Enterable for Wide {
+    #[inline(always)]
+    fn walk(units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
+        march::walk(units, lines);
+    }
+}
 
 /// The projector's accumulators at the first column of line `number`.
 pub fn line_start<W: Enterable>(projector: &Projector<W>, number: u32) -> LineStart<W> {

@@ -1,93 +1,163 @@
-//! The ray stepper, many rays at a time: the same first sample under the surface as
-//! `unit::stepper`, found by lanes that walk in step.
+//! The ray stepper, a packet of rays at a time: the same first sample under the surface as
+//! `unit::stepper`.
 //!
-//! Loops over lanes are plain and branch-free, so that they vectorise; loads from the pyramid and
-//! the map stand in loops of their own. Lanes alternate between trials of the pyramid and single
-//! samples. A sample at or above its cell's highest node is clear without interpolation, which is
-//! exact because every kernel stays within its nodes.
+//! A ray visits the blocks of the map that its samples lie in, coarse ones where it is high, finer
+//! ones near the ground. The last sample in a block is known from the block's far side and the
+//! reciprocal of the step, rounded so that it never lies beyond. If first and last sample are at or
+//! above the block's highest node, no sample between them hits (samples of a ray lie on a line, the
+//! surface stays within its nodes), and the ray goes on with the first sample after it. In a single
+//! cell that is not passed so, `solve` finds the first sample under the surface.
+//!
+//! Loops over lanes are plain and branch-free, so that they vectorise; loads stand in loops of
+//! their own.
 
-use super::heights::{LANES, heights};
+use super::maxima::{Maxima, NOTHING};
+use super::{refine, solve};
 use crate::frame::Hit;
+use crate::setup::TerrainUnits;
 use crate::unit::Line;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::line::{Entry, Work};
-use crate::unit::pyramid::Pyramid;
-use crate::unit::stepper::{Heading, Place, Stepper, SurfaceUnit};
-use crate::word::{Cell, Interpolating, Site, Word as _, World};
+use crate::unit::stepper::{Heading, Place, Stepper};
+use crate::word::{Cell, Enter as _, Interpolating, Lane, Site, Word as _, World};
+
+/// Rays that walk together.
+pub const LANES: usize = 16;
 
 /// One per lane: 1 where something holds, else 0. Numbers of the words' width mix with them in
 /// vectors, `bool`s would not.
-type Flags = [u32; LANES];
+pub type Flags = [u32; LANES];
 
-/// The rays of a group, component by component.
-struct Lanes<W: World> {
-    x: [W::Ground; LANES],
-    y: [W::Height; LANES],
-    z: [W::Ground; LANES],
-    dx: [W::Ground; LANES],
-    dy: [W::Height; LANES],
-    dz: [W::Ground; LANES],
+/// A world whose words are plain integers: the stock worlds.
+pub trait Packed:
+    Interpolating + World<View: Lane, Ground: Lane, Height: Lane, Weight: Lane>
+{
+}
+impl<W> Packed for W where
+    W: Interpolating + World<View: Lane, Ground: Lane, Height: Lane, Weight: Lane>
+{
+}
+
+/// What a walk needs to know of the map.
+pub struct Land<'a, W: World> {
+    /// The machine's stepper.
+    pub stepper: &'a Stepper<W>,
+    /// The machine's interpolator.
+    pub surface: &'a Interpolator<W>,
+    /// Highest nodes.
+    pub maxima: &'a Maxima,
+}
+
+/// A packet of rays, component by component.
+pub struct Rays<W: World> {
+    /// The first place that has not been tested.
+    pub x: [W::Ground; LANES],
+    /// Its height.
+    pub y: [W::Height; LANES],
+    /// Its z.
+    pub z: [W::Ground; LANES],
+    /// Step.
+    pub dx: [W::Ground; LANES],
+    /// Step in height.
+    pub dy: [W::Height; LANES],
+    /// Step in z.
+    pub dz: [W::Ground; LANES],
+    /// Index of the sample at that place.
+    pub index: [u32; LANES],
     /// Cells outside of which the ray has left the map behind: first and last, x and z.
     within: [[i32; LANES]; 4],
     /// The ray does not fall.
     rises: Flags,
     /// The ray does not rise, and the map has a base.
     falls: Flags,
-    index: [u32; LANES],
     level: [u32; LANES],
-    /// Samples left before jumps are tried again.
-    run: [u32; LANES],
-    /// Tries jumps.
-    walks: Flags,
-    /// Tests single samples.
-    samples: Flags,
-    /// Has found its first sample under the surface.
-    hits: Flags,
-    outcome: [Hit; LANES],
-    site: [Site; LANES],
+    /// Looks for a block that it does not pass.
+    pub walks: Flags,
+    /// Stands in a cell that it may not pass.
+    pub near: Flags,
+    /// More samples of the ray in that cell.
+    pub more: [u32; LANES],
+    /// Stands at its first sample under the surface.
+    pub hits: Flags,
+    /// What becomes of a ray that does not hit.
+    pub outcome: [Hit; LANES],
+    /// Reciprocals of the longest steps in x and z.
+    inverse: [u32; 2],
+    /// The longest steps in x and z.
+    pub longest: [W::Ground; 2],
 }
 
+/// Whether any flag is set.
 #[inline(always)]
-fn any(flags: &Flags) -> bool {
+pub fn any(flags: &Flags) -> bool {
     flags.iter().fold(0, |any, flag| any | flag) != 0
 }
 
-/// Drives `hit`, `ground_x`, `ground_z` and `steps` of one line as the stepper does. Work is not
-/// counted here: trials are the processor's.
+/// Runs the stepper on neighbouring lines: `run` where the map repeats nowhere and has maxima.
 #[inline(always)]
-pub fn run<W: Interpolating>(stepper: &Stepper<W>, surface: &Interpolator<W>, line: &mut Line<W>) {
-    let Some(pyramid) = stepper.pyramid.as_deref() else {
-        // Without bounds every sample is tested, as the processor does.
-        return stepper.run(line, surface);
-    };
-    let mut from = 0;
-    while from < line.len() {
-        let to = (from + LANES).min(line.len());
-        let mut lanes = start(stepper, line, from, to);
-        while any(&lanes.walks) {
-            while any(&lanes.walks) {
-                trial(stepper, pyramid, &mut lanes);
-            }
-            while any(&lanes.samples) {
-                sample(stepper, surface, pyramid, &mut lanes);
-            }
-        }
-        miss(stepper, &mut lanes);
-        refine(stepper, surface, &mut lanes);
-        finish(&lanes, line, from, to);
-        from = to;
+pub fn walk<W: Packed>(units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
+    let (stepper, surface) = (&units.stepper, &units.interpolator);
+    match units.maxima.as_deref() {
+        Some(maxima) => run(&Land { stepper, surface, maxima }, lines),
+        None => lines.iter_mut().for_each(|line| stepper.run(line, surface)),
     }
 }
 
-impl<W: World> Lanes<W> {
+/// Drives `hit`, `ground_x`, `ground_z` and `steps` of neighbouring lines as the stepper does. Work
+/// is not counted here: trials are the processor's.
+#[inline(always)]
+pub fn run<W: Packed>(land: &Land<'_, W>, lines: &mut [Line<W>]) {
+    let shape = Shape { lines: lines.len(), width: LANES / lines.len() };
+    let columns = lines.first().map_or(0, Line::len);
+    let mut from = 0;
+    while from < columns {
+        let mut rays = start(land.stepper, lines, shape, from);
+        while any(&rays.walks) {
+            while any(&rays.walks) {
+                trial(land, &mut rays);
+            }
+            if any(&rays.near) {
+                solve::run(land, &mut rays);
+            }
+        }
+        refine::run(land, &mut rays);
+        finish(&rays, lines, shape, from);
+        from += shape.width;
+    }
+}
+
+/// How the pixels of a packet lie.
+#[derive(Clone, Copy)]
+struct Shape {
+    lines: usize,
+    width: usize,
+}
+
+impl Shape {
+    /// Line and column of a lane.
     #[inline(always)]
-    fn place(&self, lane: usize) -> Place<W> {
+    fn pixel(self, lane: usize) -> (usize, usize) {
+        (lane / self.width, lane % self.width)
+    }
+}
+
+impl<W: World> Rays<W> {
+    /// The place of a lane.
+    #[inline(always)]
+    pub fn place(&self, lane: usize) -> Place<W> {
         Place { x: self.x[lane], y: self.y[lane], z: self.z[lane] }
     }
 
+    /// The step of a lane.
     #[inline(always)]
-    fn step(&self, lane: usize) -> Place<W> {
+    pub fn step(&self, lane: usize) -> Place<W> {
         Place { x: self.dx[lane], y: self.dy[lane], z: self.dz[lane] }
+    }
+
+    /// Moves a lane.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, place: Place<W>) {
+        (self.x[lane], self.y[lane], self.z[lane]) = (place.x, place.y, place.z);
     }
 
     /// Where a ray ends, from where it is heading.
@@ -107,259 +177,174 @@ impl<W: World> Lanes<W> {
         self.rises[lane] = u32::from(heading.rises);
         self.falls[lane] = u32::from(heading.falls && extent.is_some());
     }
-
-    #[inline(always)]
-    fn set(&mut self, lane: usize, place: Place<W>) {
-        (self.x[lane], self.y[lane], self.z[lane]) = (place.x, place.y, place.z);
-    }
 }
 
-/// The rays `from..to` of a line at their starts; lanes without a ray are done.
+/// The rays of a packet at their first samples; lanes without a ray are done.
 #[inline(always)]
-fn start<W: World>(stepper: &Stepper<W>, line: &Line<W>, from: usize, to: usize) -> Lanes<W> {
+fn start<W: Packed>(
+    stepper: &Stepper<W>,
+    lines: &[Line<W>],
+    shape: Shape,
+    from: usize,
+) -> Rays<W> {
     let eye = stepper.eye();
-    let site = Site::pixel(line.number, 0);
-    let mut lanes = Lanes {
+    let still = eye.minus(eye);
+    let mut rays = Rays {
         x: [eye.x; LANES],
         y: [eye.y; LANES],
         z: [eye.z; LANES],
-        dx: [eye.x; LANES],
-        dy: [eye.y; LANES],
-        dz: [eye.z; LANES],
+        dx: [still.x; LANES],
+        dy: [still.y; LANES],
+        dz: [still.z; LANES],
+        index: [1; LANES],
         within: [[0; LANES]; 4],
         rises: [0; LANES],
         falls: [0; LANES],
-        index: [0; LANES],
         level: [0; LANES],
-        run: [0; LANES],
         walks: [0; LANES],
-        samples: [0; LANES],
+        near: [0; LANES],
+        more: [0; LANES],
         hits: [0; LANES],
         outcome: [Hit::Sky; LANES],
-        site: [site; LANES],
+        inverse: [0; 2],
+        longest: [still.x, still.z],
     };
-    for (lane, i) in (from..to).enumerate() {
-        let entry = if stepper.from_eye { Entry::Met } else { line.entry[i] };
-        lanes.site[lane] = Site { column: line.column[i], ..site };
-        match entry {
+    for lane in 0..LANES {
+        let (row, column) = shape.pixel(lane);
+        let i = from + column;
+        if row >= shape.lines || i >= lines[row].len() {
+            continue;
+        }
+        let line = &lines[row];
+        match if stepper.from_eye { Entry::Met } else { line.entry[i] } {
             Entry::Sky => continue,
             Entry::Far => {
-                lanes.outcome[lane] = stepper.beyond;
+                rays.outcome[lane] = stepper.beyond;
                 continue;
             }
             Entry::Met => {}
         }
-        if !stepper.from_eye {
-            lanes.x[lane] = line.ground_x[i];
-            lanes.y[lane] = stepper.top;
-            lanes.z[lane] = line.ground_z[i];
+        let place = if stepper.from_eye {
+            eye
+        } else {
+            Place { x: line.ground_x[i], y: stepper.top, z: line.ground_z[i] }
+        };
+        let site = Site::pixel(line.number, line.column[i]);
+        let step = stepper.step(line.view_x[i], line.view_y[i], line.view_z[i], site);
+        let heading = stepper.heading(step);
+        if stepper.is_over(place, heading) {
+            continue;
         }
-        let step = stepper.step(line.view_x[i], line.view_y[i], line.view_z[i], lanes.site[lane]);
-        (lanes.dx[lane], lanes.dy[lane], lanes.dz[lane]) = (step.x, step.y, step.z);
-        lanes.head(lane, stepper.heading(step), stepper.extent);
-        lanes.walks[lane] = 1;
+        if stepper.last == 0 {
+            rays.outcome[lane] = Hit::Far;
+            continue;
+        }
+        rays.set(lane, place.plus(step));
+        (rays.dx[lane], rays.dy[lane], rays.dz[lane]) = (step.x, step.y, step.z);
+        rays.head(lane, heading, stepper.extent);
+        rays.walks[lane] = 1;
     }
-    lanes
+    for lane in 0..LANES {
+        let (x, z) = (rays.dx[lane].magnitude(), rays.dz[lane].magnitude());
+        let [longest_x, longest_z] = rays.longest;
+        rays.longest = [
+            if x > longest_x { x } else { longest_x },
+            if z > longest_z { z } else { longest_z },
+        ];
+    }
+    rays.inverse = [rays.longest[0].inverse(), rays.longest[1].inverse()];
+    rays
 }
 
-/// One trial of every walking lane.
+/// One block of every walking lane: passed, or looked at more closely.
 #[inline(always)]
-fn trial<W: World>(stepper: &Stepper<W>, pyramid: &Pyramid<W::Height>, lanes: &mut Lanes<W>) {
-    let (cells_x, cells_z) = cells(&lanes.x, &lanes.z);
-    // Loads, lane by lane; a lane out of reach of the map has no bound.
-    let mut bound = [stepper.base; LANES];
-    let mut free = [1; LANES];
+fn trial<W: Packed>(land: &Land<'_, W>, rays: &mut Rays<W>) {
+    let (stepper, maxima) = (land.stepper, land.maxima);
+    let mut held = [1; LANES];
     let mut addresses = [0; LANES];
     for lane in 0..LANES {
-        let (stored, address) = pyramid.address(lanes.level[lane], cells_x[lane], cells_z[lane]);
-        free[lane] = u32::from(!stored);
-        addresses[lane] = if stored { address } else { 0 };
+        (addresses[lane], held[lane]) =
+            maxima.address(rays.level[lane], rays.x[lane].cell(), rays.z[lane].cell());
     }
+    let mut bounds = [0; LANES];
     for lane in 0..LANES {
-        bound[lane] = pyramid.at(addresses[lane]);
+        bounds[lane] = i32::from(maxima.at(addresses[lane]));
     }
-    let over = over(stepper, lanes, &cells_x, &cells_z);
-    let top = pyramid.top();
+    let [inverse_x, inverse_z] = rays.inverse;
     for lane in 0..LANES {
-        let walks = lanes.walks[lane];
-        let left = stepper.last.wrapping_sub(lanes.index[lane]);
-        let level = lanes.level[lane];
-        let shift = level + stepper.fineness;
-        let jump = 1_u32 << shift;
-        let x = lanes.x[lane] + lanes.dx[lane].shift_left(shift);
-        let y = lanes.y[lane] + lanes.dy[lane].shift_left(shift);
-        let z = lanes.z[lane] + lanes.dz[lane].shift_left(shift);
-        let above = u32::from(lanes.y[lane] >= bound[lane]) & u32::from(y >= bound[lane]);
-        let ends = over[lane] | u32::from(left == 0);
-        let goes_on = walks & (ends ^ 1);
-        let clear = goes_on & u32::from(jump <= left) & (free[lane] | above);
-        let jumps = clear == 1;
-        lanes.x[lane] = if jumps { x } else { lanes.x[lane] };
-        lanes.y[lane] = if jumps { y } else { lanes.y[lane] };
-        lanes.z[lane] = if jumps { z } else { lanes.z[lane] };
-        lanes.index[lane] += if jumps { jump } else { 0 };
-        let tests = goes_on & (clear ^ 1) & u32::from(level == 0);
-        let lower = level.saturating_sub(goes_on);
-        lanes.level[lane] = if jumps { (level + 1).min(top) } else { lower };
-        let run = (1 << stepper.fineness).min(left);
-        lanes.run[lane] = if tests == 1 { run } else { lanes.run[lane] };
-        lanes.samples[lane] |= tests;
-        lanes.walks[lane] = goes_on & (tests ^ 1);
+        let walks = rays.walks[lane];
+        let level = rays.level[lane];
+        let (x, y, z) = (rays.x[lane], rays.y[lane], rays.z[lane]);
+        let (dx, dy, dz) = (rays.dx[lane], rays.dy[lane], rays.dz[lane]);
+        let more = x.steps_within(dx, level, inverse_x);
+        let more = more.min(z.steps_within(dz, level, inverse_z));
+        let more = more.min(stepper.last.wrapping_sub(rays.index[lane]));
+        let end = y.after(dy, more);
+        let low = if end < y { end } else { y };
+        let nothing = (held[lane] ^ 1) | u32::from(bounds[lane] == i32::from(NOTHING));
+        let clear = nothing | u32::from(low.coarse(maxima.places()) >= bounds[lane]);
+        let passes = walks & clear;
+        let steps = if passes == 1 { more + 1 } else { 0 };
+        rays.x[lane] = x.after(dx, steps);
+        rays.y[lane] = y.after(dy, steps);
+        rays.z[lane] = z.after(dz, steps);
+        rays.index[lane] += steps;
+        rays.more[lane] = more;
+        // Beside the map, a ray that falls under its base is over.
+        let sinks = passes & nothing & rays.falls[lane] & u32::from(end < stepper.base);
+        let stands = walks & (clear ^ 1) & u32::from(level == 0);
+        rays.near[lane] |= stands;
+        rays.walks[lane] = walks & (stands ^ 1) & (sinks ^ 1);
+        let finer = level.saturating_sub(walks & (clear ^ 1));
+        rays.level[lane] = if passes == 1 { (level + 1).min(maxima.top()) } else { finer };
     }
+    end(stepper, rays);
 }
 
-/// Cells of all lanes.
+/// Ends the walks that can no longer meet the surface, as `Stepper::is_over` says, or whose samples
+/// are used up.
 #[inline(always)]
-fn cells<T: Cell>(x: &[T; LANES], z: &[T; LANES]) -> ([i32; LANES], [i32; LANES]) {
-    let (mut cells_x, mut cells_z) = ([0; LANES], [0; LANES]);
+pub fn end<W: Packed>(stepper: &Stepper<W>, rays: &mut Rays<W>) {
+    let mut out = [0; LANES];
     for lane in 0..LANES {
-        cells_x[lane] = x[lane].cell();
-        cells_z[lane] = z[lane].cell();
+        out[lane] = rays.walks[lane] & u32::from(rays.index[lane] > stepper.last);
     }
-    (cells_x, cells_z)
-}
-
-/// Whether lanes can no longer meet the surface, as `Stepper::is_over` says.
-#[inline(always)]
-fn over<W: World>(
-    stepper: &Stepper<W>,
-    lanes: &Lanes<W>,
-    cells_x: &[i32; LANES],
-    cells_z: &[i32; LANES],
-) -> Flags {
-    let mut over = [0; LANES];
-    let [first_x, last_x, first_z, last_z] = &lanes.within;
-    for lane in 0..LANES {
-        let (i, j) = (cells_x[lane], cells_z[lane]);
-        over[lane] = u32::from(i < first_x[lane])
-            | u32::from(i > last_x[lane])
-            | u32::from(j < first_z[lane])
-            | u32::from(j > last_z[lane])
-            | (lanes.rises[lane] & u32::from(lanes.y[lane] >= stepper.top))
-            | (lanes.falls[lane] & u32::from(lanes.y[lane] < stepper.base));
-    }
-    over
-}
-
-/// One sample of every sampling lane.
-#[inline(always)]
-fn sample<W: Interpolating>(
-    stepper: &Stepper<W>,
-    surface: &Interpolator<W>,
-    pyramid: &Pyramid<W::Height>,
-    lanes: &mut Lanes<W>,
-) {
-    for lane in 0..LANES {
-        let samples = lanes.samples[lane];
-        let steps = samples == 1;
-        let x = lanes.x[lane] + lanes.dx[lane];
-        let y = lanes.y[lane] + lanes.dy[lane];
-        let z = lanes.z[lane] + lanes.dz[lane];
-        lanes.x[lane] = if steps { x } else { lanes.x[lane] };
-        lanes.y[lane] = if steps { y } else { lanes.y[lane] };
-        lanes.z[lane] = if steps { z } else { lanes.z[lane] };
-        lanes.index[lane] += samples;
-        lanes.run[lane] = lanes.run[lane].wrapping_sub(samples);
-    }
-    let (cells_x, cells_z) = cells(&lanes.x, &lanes.z);
-    let over = over(stepper, lanes, &cells_x, &cells_z);
-    let memory = &*surface.heights;
-    let mut inside = [0; LANES];
-    for lane in 0..LANES {
-        inside[lane] = u32::from(memory.contains(cells_x[lane], cells_z[lane]));
-    }
-    let mut highest = [stepper.base; LANES];
-    for lane in 0..LANES {
-        highest[lane] = pyramid.cell(memory.column(cells_x[lane]), memory.row(cells_z[lane]));
-    }
-    let mut near = [0; LANES];
-    for lane in 0..LANES {
-        let samples = lanes.samples[lane];
-        near[lane] = inside[lane] & samples & u32::from(lanes.y[lane] < highest[lane]);
-        let back = samples & ((inside[lane] ^ 1) & over[lane] | u32::from(lanes.run[lane] == 0));
-        lanes.samples[lane] = samples & (back ^ 1);
-        lanes.walks[lane] |= back;
-    }
-    // Few lanes are this near to the surface at once: one by one is faster than all together.
-    for lane in 0..LANES {
-        if near[lane] == 1 {
-            let site = lanes.site[lane].step(lanes.index[lane] << 3);
-            if lanes.y[lane] < surface.height(lanes.x[lane], lanes.z[lane], site) {
-                (lanes.hits[lane], lanes.samples[lane], lanes.walks[lane]) = (1, 0, 0);
+    if any(&out) {
+        for lane in 0..LANES {
+            if out[lane] == 1 {
+                let step = rays.step(lane);
+                let last = rays.place(lane).minus(step);
+                let over = stepper.is_over(last, stepper.heading(step));
+                rays.outcome[lane] = if over { Hit::Sky } else { Hit::Far };
             }
         }
     }
-}
-
-/// Outcomes of the lanes that walked and did not hit: the last index came before the ray was over.
-#[inline(always)]
-fn miss<W: World>(stepper: &Stepper<W>, lanes: &mut Lanes<W>) {
-    let (cells_x, cells_z) = cells(&lanes.x, &lanes.z);
-    let over = over(stepper, lanes, &cells_x, &cells_z);
+    let [first_x, last_x, first_z, last_z] = &rays.within;
     for lane in 0..LANES {
-        let stopped = lanes.hits[lane] == 0 && lanes.index[lane] >= stepper.last;
-        if stopped && over[lane] == 0 {
-            lanes.outcome[lane] = Hit::Far;
-        }
+        let (i, j) = (rays.x[lane].cell(), rays.z[lane].cell());
+        let over = u32::from(i < first_x[lane])
+            | u32::from(i > last_x[lane])
+            | u32::from(j < first_z[lane])
+            | u32::from(j > last_z[lane])
+            | (rays.rises[lane] & u32::from(rays.y[lane] >= stepper.top));
+        rays.walks[lane] &= (over | out[lane]) ^ 1;
     }
 }
 
-/// Halves the last step of every lane that has hit, all lanes at once.
+/// Puts the packet's ends on the wires.
 #[inline(always)]
-fn refine<W: Interpolating>(stepper: &Stepper<W>, surface: &Interpolator<W>, lanes: &mut Lanes<W>) {
-    if !any(&lanes.hits) {
-        return;
-    }
-    let mut times = [0_u32; LANES];
+fn finish<W: World>(rays: &Rays<W>, lines: &mut [Line<W>], shape: Shape, from: usize) {
     for lane in 0..LANES {
-        let hit = lanes.hits[lane] == 1;
-        times[lane] = if hit { stepper.halvings_at(lanes.place(lane)) } else { 0 };
-        if hit {
-            lanes.set(lane, lanes.place(lane).minus(lanes.step(lane)));
-        }
-    }
-    let most = times.iter().fold(0, |most, &t| most.max(t));
-    let memory = &*surface.heights;
-    for halving in 1..=most {
-        let mut x = lanes.x;
-        let mut y = lanes.y;
-        let mut z = lanes.z;
-        let mut sites = lanes.site;
-        for lane in 0..LANES {
-            let middle = lanes.place(lane).plus(lanes.step(lane).halved(halving));
-            (x[lane], y[lane], z[lane]) = (middle.x, middle.y, middle.z);
-            sites[lane] = lanes.site[lane].step(1 << 30 | halving << 3);
-        }
-        let surfaces = heights(surface, &x, &z, &sites);
-        for lane in 0..LANES {
-            let inside = u32::from(memory.contains(x[lane].cell(), z[lane].cell()));
-            let under = inside & u32::from(y[lane] < surfaces[lane]);
-            let moves = u32::from(halving <= times[lane]) & (under ^ 1) == 1;
-            lanes.x[lane] = if moves { x[lane] } else { lanes.x[lane] };
-            lanes.y[lane] = if moves { y[lane] } else { lanes.y[lane] };
-            lanes.z[lane] = if moves { z[lane] } else { lanes.z[lane] };
-        }
-    }
-    for lane in 0..LANES {
-        if lanes.hits[lane] == 0 {
+        let (row, column) = shape.pixel(lane);
+        let i = from + column;
+        if row >= shape.lines || i >= lines[row].len() {
             continue;
         }
-        let (clear, step) = (lanes.place(lane), lanes.step(lane));
-        let meets = memory.contains(clear.x.cell(), clear.z.cell());
-        let place = clear.plus(step.halved(times[lane] + u32::from(meets)));
-        lanes.outcome[lane] = if meets { Hit::Surface } else { stepper.beside(place, step) };
-        lanes.set(lane, place);
-    }
-}
-
-/// Puts the group's ends on the wires.
-#[inline(always)]
-fn finish<W: World>(lanes: &Lanes<W>, line: &mut Line<W>, from: usize, to: usize) {
-    for (lane, i) in (from..to).enumerate() {
-        line.hit[i] = lanes.outcome[lane];
-        line.steps[i] = lanes.index[lane];
+        let line = &mut lines[row];
+        line.hit[i] = rays.outcome[lane];
+        line.steps[i] = rays.index[lane];
         line.work[i] = Work::default();
-        line.ground_x[i] = lanes.x[lane];
-        line.ground_z[i] = lanes.z[lane];
+        line.ground_x[i] = rays.x[lane];
+        line.ground_z[i] = rays.z[lane];
     }
 }

@@ -9,6 +9,9 @@
 pub mod enter;
 pub mod heights;
 pub mod march;
+pub mod maxima;
+pub mod refine;
+pub mod solve;
 
 use fearless_simd::{Level, Simd as _, dispatch};
 use rayon::prelude::*;
@@ -26,30 +29,39 @@ use enter::Enterable;
 /// between sky and ground.
 const BAND: u32 = 16;
 
-/// Draws one line on wires that hold all columns, at the widest SIMD level of the processor it runs
-/// on.
-pub fn run_line<W: Complete + Enterable>(setup: &Setup<W>, number: u32, line: &mut Line<W>) {
+/// Neighbouring lines whose rays walk together.
+pub const GROUP: usize = 4;
+
+/// Draws neighbouring lines, from `first` on, on wires that hold all columns, at the widest SIMD
+/// level of the processor it runs on. Any number of lines will do; most at a time is [`GROUP`].
+pub fn run_lines<W: Complete + Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
     let level = Level::new();
-    dispatch!(level, simd => simd.vectorize(
-        #[inline(always)]
-        || run_units(setup, number, line)
-    ));
+    let mut number = first;
+    for group in lines.chunks_mut(GROUP) {
+        dispatch!(level, simd => simd.vectorize(
+            #[inline(always)]
+            || run_units(setup, number, group)
+        ));
+        number += group.len() as u32;
+    }
 }
 
 #[inline(always)]
-fn run_units<W: Complete + Enterable>(setup: &Setup<W>, number: u32, line: &mut Line<W>) {
-    line.number = number;
-    let start = enter::line_start(&setup.projector, number);
-    enter::fill(&setup.projector, &start, line);
-    if let Some(divider) = &setup.divider {
-        divider.run(line, Method::Direct);
+fn run_units<W: Complete + Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
+    for (line, number) in lines.iter_mut().zip(first..) {
+        line.number = number;
+        let start = enter::line_start(&setup.projector, number);
+        enter::fill(&setup.projector, &start, line);
+        if let Some(divider) = &setup.divider {
+            divider.run(line, Method::Direct);
+        }
     }
     match &setup.back {
         Back::Terrain(units) => {
-            march::run(&units.stepper, &units.interpolator, line);
-            units.shade(line);
+            W::walk(units, lines);
+            lines.iter_mut().for_each(|line| units.shade(line));
         }
-        Back::Plane(shader) => shader.run(line),
+        Back::Plane(shader) => lines.iter_mut().for_each(|line| shader.run(line)),
     }
 }
 
@@ -68,12 +80,13 @@ pub fn render_and_look<W: Complete + Enterable>(
     let bands: Vec<FrameBuilder<'_>> = (0..setup.lines.div_ceil(BAND))
         .into_par_iter()
         .map_init(
-            || Line::new(&setup.world, 0..setup.columns),
-            |line, band| {
-                let lines = band * BAND..setup.lines.min((band + 1) * BAND);
+            || vec![Line::new(&setup.world, 0..setup.columns); BAND as usize],
+            |lines, band| {
+                let first = band * BAND;
+                let lines = &mut lines[..(setup.lines - first).min(BAND) as usize];
+                run_lines(setup, first, lines);
                 let mut builder = FrameBuilder::new(plan, lines.len(), buffers, false);
-                for number in lines {
-                    run_line(setup, number, line);
+                for line in lines {
                     look(line);
                     builder.push(line);
                 }

@@ -38,6 +38,26 @@ pub fn slope(shape: KernelShape, t: f64) -> f64 {
     }
 }
 
+/// Largest |f′| of a basic shape.
+pub fn steepest(shape: KernelShape) -> f64 {
+    match shape {
+        KernelShape::Hat => 1.0,
+        _ => -slope(shape, 0.5),
+    }
+}
+
+/// Bound of |f″| of a basic shape where it exists; f′ is continuous but for the hat's nodes.
+pub fn most_curved(shape: KernelShape) -> f64 {
+    use std::f64::consts::{LN_2, PI};
+    match shape {
+        KernelShape::Cosine => PI * PI / 2.0,
+        KernelShape::Parabola => 4.0,
+        // At the nodes: f″(0) = −8 ln 2.
+        KernelShape::Exponential => 8.0 * LN_2,
+        KernelShape::Hat => 0.0,
+    }
+}
+
 /// Outer weights of deformation 1, `α · ⅔ f(⅔t)` on (−3/2, 3/2), with `α = ¾ / f(⅓)` so that the
 /// patches around neighbouring nodes meet half-way between them (equation 17); α = 1 for the
 /// cosine.

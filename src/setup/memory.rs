@@ -5,6 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::kernel;
+use crate::fast::maxima::{Bend, Maxima};
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{ALL_BITS, Ground, Plan};
 use crate::scene::{Deformation, Kernel, KernelShape, Outside, Scene, Surface, Terrain};
@@ -12,10 +13,13 @@ use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
 use crate::unit::kernel_rom::KernelRom;
 use crate::unit::pyramid::Pyramid;
-use crate::word::{Load, Open, Register, World};
+use crate::word::{Load, Open, Readout, Register, World};
 
 /// Entries per unit of the reciprocal-square-root table, as a power of two.
 const RSQRT_LOG2: u32 = 10;
+
+/// Roundings of a weight: more than its last bits in any stock world.
+const ROUNDINGS: f64 = 1.0 / (1 << 18) as f64;
 
 /// The machine's memories for one height map.
 #[derive(Clone, Debug)]
@@ -24,6 +28,8 @@ pub struct Memory<W: World> {
     pub heights: Arc<HeightMemory<W::Height>>,
     /// Bounds for skipping.
     pub pyramid: Option<Arc<Pyramid<W::Height>>>,
+    /// Maxima of blocks, for the fast engine; absent where the machine does not skip.
+    pub maxima: Option<Arc<Maxima>>,
     /// Kernel tables.
     pub rom: Option<Arc<KernelRom<W::Weight>>>,
     /// How nodes are weighted.
@@ -57,6 +63,10 @@ impl<W: Open> Memory<W> {
         let form = form(&scene.kernel, plan);
         let radius = i32::from(form == Form::Stretch);
         let pyramid = plan.fitted.pyramid.then(|| Arc::new(Pyramid::new(&heights, radius)));
+        let maxima = (plan.fitted.pyramid && heights.edge() != Edge::Wraps)
+            .then(|| world.fixed(Register::Node))
+            .flatten()
+            .map(|format| Arc::new(maxima(&heights, walk, &scene.kernel, form, format.point)));
         let rom = match form {
             Form::Hat => None,
             _ => Some(Arc::new(kernel_rom(world, &scene.kernel)?)),
@@ -73,6 +83,7 @@ impl<W: Open> Memory<W> {
         Ok(Some(Self {
             heights: Arc::new(heights),
             pyramid,
+            maxima,
             rom,
             form,
             rsqrt: Arc::new(rsqrt),
@@ -103,6 +114,47 @@ fn heights<W: Open>(
         Outside::Wrap => Edge::Wraps,
     };
     Ok(HeightMemory::new(nodes, columns, rows, edge))
+}
+
+/// The fast engine's maxima: heights in coarse steps of 15 bits, rounded up.
+fn maxima<T: Readout + Send + Sync>(
+    heights: &HeightMemory<T>,
+    walk: &WalkPlan,
+    kernel: &Kernel,
+    form: Form,
+    point: u32,
+) -> Maxima {
+    let bits = libm::ceil(libm::log2(walk.top.max(f64::MIN_POSITIVE))) as i32 + point as i32;
+    let places = (bits - 14).max(0) as u32;
+    let steps = libm::exp2(f64::from(point) - f64::from(places));
+    let nodes = heights.nodes();
+    let coarse = nodes.par_iter().map(|node| libm::ceil(node.value() * steps) as i16).collect();
+    let coarse = HeightMemory::new(
+        coarse,
+        heights.columns() as usize,
+        heights.rows() as usize,
+        heights.edge(),
+    );
+    Maxima::new(&coarse, i32::from(form == Form::Stretch), places, bend(kernel, form))
+}
+
+/// Straightness of a weight over 2×2 nodes (equation 33); its blend's shift is a factor on what the
+/// kernel differs from the hat by.
+fn bend(kernel: &Kernel, form: Form) -> Bend {
+    let share = match form {
+        Form::Hat => 0.0,
+        Form::Blend(shift) => libm::exp2(-f64::from(shift)),
+        Form::Plain | Form::Stretch => 1.0,
+    };
+    let steepest = 1.0 + share * (kernel::steepest(kernel.shape) - 1.0);
+    // Half an entry of the table at its steepest, and the rounding of both.
+    let entry = share * kernel::steepest(kernel.shape) / (2.0 * f64::from(kernel.table)) + ROUNDINGS;
+    let up = |value: f64, bits: i32| libm::ceil(value * libm::exp2(f64::from(bits))) as u64 + 1;
+    Bend {
+        slope_squared: up(steepest * steepest, 8),
+        half_curvature: up(share * kernel::most_curved(kernel.shape) / 2.0, 8),
+        error: up(5.0 * entry, 16),
+    }
 }
 
 /// The smallest form that gives the kernel's bits; the full machine's form where all is fitted.

@@ -7,6 +7,9 @@ pub mod kernel;
 pub mod memory;
 pub mod table;
 
+use std::sync::Arc;
+
+use crate::fast::maxima::Maxima;
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanError};
 use crate::scene::{Scene, Surface};
@@ -56,6 +59,8 @@ pub struct TerrainUnits<W: World> {
     pub interpolator: Interpolator<W>,
     /// Shader.
     pub shader: TerrainShader<W>,
+    /// What the fast engine skips by; absent where the machine does not skip.
+    pub maxima: Option<Arc<Maxima>>,
 }
 
 /// All registers of a machine, loaded.
@@ -93,7 +98,12 @@ impl<W: Complete> Setup<W> {
                 let interpolator = coefficients::interpolator(&world, plan, walk, memory)?;
                 refuse_eye_under_ground(walk, &stepper, &interpolator)?;
                 let shader = coefficients::terrain_shader(&world, scene, plan, walk, memory)?;
-                Back::Terrain(Box::new(TerrainUnits { stepper, interpolator, shader }))
+                Back::Terrain(Box::new(TerrainUnits {
+                    stepper,
+                    interpolator,
+                    shader,
+                    maxima: memory.maxima.clone(),
+                }))
             }
             (Surface::Plane(plane), Ground::Plane(planned), _) => Back::Plane(
                 coefficients::plane_shader(&world, scene, plan, plane, planned, &coefficients)?,

@@ -24,8 +24,6 @@ pub struct Pyramid<T> {
     top: u32,
     /// Bounds of all levels, one after the other.
     bounds: Vec<T>,
-    /// Per cell of the map, the highest of the nodes that its surface depends on.
-    cells: Vec<T>,
     edge: Edge,
     columns: i32,
     rows: i32,
@@ -87,7 +85,7 @@ impl<T: Copy + PartialOrd + Send + Sync> Pyramid<T> {
         let (columns, rows, edge) = (heights.columns(), heights.rows(), heights.edge());
         let mut level = 0;
         // Nodes b·2^m − r ..= (b+1)·2^m + r of each block.
-        let cells = finest(heights, r);
+        let cells = cell_maxima(heights, r);
         let mut maxima = None;
         let (mut width, mut height) = (columns, rows);
         let mut levels = Levels::default();
@@ -112,7 +110,7 @@ impl<T: Copy + PartialOrd + Send + Sync> Pyramid<T> {
             maxima = Some(halve(finer, width as usize, height as usize));
             (width, height) = (w, h);
         }
-        Self { levels, top: level, bounds, cells, edge, columns, rows }
+        Self { levels, top: level, bounds, edge, columns, rows }
     }
 
     /// Highest level.
@@ -123,12 +121,6 @@ impl<T: Copy + PartialOrd + Send + Sync> Pyramid<T> {
     /// Bounds stored in all levels.
     pub fn stored_bounds(&self) -> usize {
         self.bounds.len()
-    }
-
-    /// A bound of the surface in the cell at a column and row address of the height memory.
-    #[inline(always)]
-    pub fn cell(&self, column: usize, row: usize) -> T {
-        self.cells[row * self.columns as usize + column]
     }
 
     /// The bound for a ray in cell (i, j) that jumps at most 2^level cells per axis; `None` where
@@ -165,7 +157,7 @@ fn higher<T: Copy + PartialOrd>(a: T, b: T) -> T {
 }
 
 /// Per cell, the highest of nodes i−r ..= i+1+r and j−r ..= j+1+r.
-fn finest<T: Copy + PartialOrd + Send + Sync>(heights: &HeightMemory<T>, r: i32) -> Vec<T> {
+pub fn cell_maxima<T: Copy + PartialOrd + Send + Sync>(heights: &HeightMemory<T>, r: i32) -> Vec<T> {
     let nodes = heights.nodes();
     let width = heights.columns() as usize;
     let mut out = vec![nodes[0]; nodes.len()];
@@ -228,13 +220,33 @@ fn halve<T: Copy + PartialOrd + Send + Sync>(maxima: &[T], width: usize, height:
     let mut out = vec![maxima[0]; half * height.div_ceil(2)];
     out.par_chunks_exact_mut(half).zip(maxima.par_chunks(2 * width)).for_each(|(out, pair)| {
         let (above, below) = pair.split_at(width);
-        let below = if below.is_empty() { above } else { below };
-        for (o, (a, b)) in out.iter_mut().zip(above.chunks(2).zip(below.chunks(2))) {
-            let last = a.len() - 1;
-            *o = higher(higher(a[0], a[last]), higher(b[0], b[last]));
-        }
+        halve_rows(above, if below.is_empty() { above } else { below }, out);
     });
     out
+}
+
+/// The same for the first `width` columns and `height` rows of a grid whose rows are `stride`
+/// apart, into another one of that stride.
+pub fn halve_into<T: Copy + PartialOrd + Send + Sync>(
+    maxima: &[T],
+    stride: usize,
+    (width, height): (usize, usize),
+    out: &mut [T],
+) {
+    let pairs = maxima[..height * stride].par_chunks(2 * stride);
+    out.par_chunks_exact_mut(stride).zip(pairs).for_each(|(out, pair)| {
+        let above = &pair[..width];
+        let below = pair.get(stride..stride + width).unwrap_or(above);
+        halve_rows(above, below, &mut out[..width.div_ceil(2)]);
+    });
+}
+
+/// Maxima of pairs of columns of two rows.
+fn halve_rows<T: Copy + PartialOrd>(above: &[T], below: &[T], out: &mut [T]) {
+    for (o, (a, b)) in out.iter_mut().zip(above.chunks(2).zip(below.chunks(2))) {
+        let last = a.len() - 1;
+        *o = higher(higher(a[0], a[last]), higher(b[0], b[last]));
+    }
 }
 
 /// Appends the bounds of one level, made from its blocks' maxima.

@@ -3,6 +3,8 @@
 //! In wrapping fixed point `start + k·step` is k additions (equation 7 of docs/mathematics.md),
 //! so lines are independent of each other and a line's columns fill in parallel.
 
+use fearless_simd::Simd;
+
 use super::march;
 use crate::setup::TerrainUnits;
 use crate::unit::Line;
@@ -15,7 +17,7 @@ use crate::word::{Enter, Interpolating, World};
 pub trait Enterable: Interpolating + World<View: Enter> {
     /// Runs the stepper on neighbouring lines, one by one where the world has no quicker way.
     #[inline(always)]
-    fn walk(units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
+    fn walk<S: Simd>(_: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
         for line in lines {
             units.stepper.run(line, &units.interpolator);
         }
@@ -25,14 +27,14 @@ pub trait Enterable: Interpolating + World<View: Enter> {
 impl Enterable for Sweep {}
 impl Enterable for Narrow {
     #[inline(always)]
-    fn walk(units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
-        march::walk(units, lines);
+    fn walk<S: Simd>(simd: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
+        march::walk(simd, units, lines);
     }
 }
 impl Enterable for Wide {
     #[inline(always)]
-    fn walk(units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
-        march::walk(units, lines);
+    fn walk<S: Simd>(simd: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
+        march::walk(simd, units, lines);
     }
 }
 

@@ -1,90 +1,85 @@
-//! Surface heights of many places at a time: the interpolator's arithmetic in loops over lanes.
+//! Surface heights of a packet's places: the interpolator's arithmetic on vectors.
 
-use super::march::LANES;
-use crate::unit::interpolator::{Form, Interpolator, mix};
+use fearless_simd::i32x16;
+use fearless_simd::prelude::*;
+
+use super::march::Land;
+use super::words::{LANES, Packed, Words};
+use crate::unit::interpolator::Form;
 use crate::unit::stepper::SurfaceUnit;
-use crate::word::{Cell, Interpolating, Site, World};
+use crate::word::{Lane as _, Site};
 
-/// Nodes h1 to h4 around a place per lane.
-pub type Nodes<W> = [[<W as World>::Height; LANES]; 4];
+/// Nodes h1 to h4 around a place per ray.
+pub type Nodes<W, S> = [<W as Packed>::Words<S>; 4];
 
-/// No stock world rounds at random, so operations need no addresses.
-const ANYWHERE: u32 = 0;
-
-/// Loads the nodes around places; lanes that are not asked for may stand anywhere.
+/// Loads the nodes of cells; rays that are not asked for may stand anywhere.
 #[inline(always)]
-pub fn nodes<W: Interpolating>(
-    unit: &Interpolator<W>,
-    x: &[W::Ground; LANES],
-    z: &[W::Ground; LANES],
-) -> Nodes<W> {
-    let first = unit.heights.at(0, 0);
-    let mut nodes = [[first; LANES]; 4];
+pub fn nodes<W: Packed, S: Simd>(
+    land: &Land<'_, W, S>,
+    i: i32x16<S>,
+    j: i32x16<S>,
+) -> Nodes<W, S> {
+    let memory = &*land.surface.heights;
+    let (i, j) = (i.to_array(), j.to_array());
+    let mut nodes = [[W::Int::default(); LANES]; 4];
     for lane in 0..LANES {
-        let [h1, h2, h3, h4] = unit.nodes(x[lane], z[lane]);
-        nodes[0][lane] = h1;
-        nodes[1][lane] = h2;
-        nodes[2][lane] = h3;
-        nodes[3][lane] = h4;
+        let (west, east) = (memory.column(i[lane]), memory.column(i[lane].wrapping_add(1)));
+        let (north, south) = (memory.row(j[lane]), memory.row(j[lane].wrapping_add(1)));
+        nodes[0][lane] = memory.at(west, north).int();
+        nodes[1][lane] = memory.at(west, south).int();
+        nodes[2][lane] = memory.at(east, north).int();
+        nodes[3][lane] = memory.at(east, south).int();
     }
-    nodes
+    nodes.map(|words| W::Words::load(land.simd, words))
 }
 
 /// Heights at places in the cells of the nodes.
 #[inline(always)]
-pub fn heights<W: Interpolating>(
-    unit: &Interpolator<W>,
-    nodes: &Nodes<W>,
-    x: &[W::Ground; LANES],
-    z: &[W::Ground; LANES],
-) -> [W::Height; LANES] {
-    let site = Site::pixel(ANYWHERE, ANYWHERE);
-    let mut out = nodes[0];
-    if unit.form == Form::Stretch {
-        for lane in 0..LANES {
-            out[lane] = unit.height(x[lane], z[lane], site);
-        }
-        return out;
+pub fn heights<W: Packed, S: Simd>(
+    land: &Land<'_, W, S>,
+    nodes: &Nodes<W, S>,
+    x: W::Words<S>,
+    z: W::Words<S>,
+) -> W::Words<S> {
+    if land.surface.form == Form::Stretch {
+        // No stock world rounds at random, so operations need no addresses.
+        let anywhere = Site::pixel(0, 0);
+        let (x, z) = (x.store(), z.store());
+        let height = |lane: usize| {
+            let (x, z) = (W::Ground::of_int(x[lane]), W::Ground::of_int(z[lane]));
+            land.surface.height(x, z, anywhere).int()
+        };
+        return W::Words::load(land.simd, std::array::from_fn(height));
     }
-    let mut kernel_x = [unit.one; LANES];
-    let mut kernel_z = [unit.one; LANES];
-    if let Some(rom) = &unit.rom {
-        for lane in 0..LANES {
-            kernel_x[lane] = rom.weight(rom.entry(x[lane].fraction()));
-            kernel_z[lane] = rom.weight(rom.entry(z[lane].fraction()));
-        }
-    }
-    let weights_x = weights(unit, x, &kernel_x, site);
-    let weights_z = weights(unit, z, &kernel_z, site);
-    for lane in 0..LANES {
-        let four = [nodes[0][lane], nodes[1][lane], nodes[2][lane], nodes[3][lane]];
-        out[lane] = mix(four, weights_x[lane], weights_z[lane], site);
-    }
-    out
+    let [h1, h2, h3, h4] = *nodes;
+    let (weight_x, weight_z) = (weights(land, x.fraction()), weights(land, z.fraction()));
+    let west = h2 + (h1 - h2).weighted(weight_z);
+    let east = h4 + (h3 - h4).weighted(weight_z);
+    east + (west - east).weighted(weight_x)
 }
 
-/// Weights of one axis from the places and the ROM's entries: `Interpolator::weight` with its
-/// choice of form outside the loops.
+/// Weights of the lower nodes of an axis at fractions within the cell: `Interpolator::weight`.
 #[inline(always)]
-fn weights<W: Interpolating>(
-    unit: &Interpolator<W>,
-    place: &[W::Ground; LANES],
-    kernel: &[W::Weight; LANES],
-    site: Site,
-) -> [W::Weight; LANES] {
-    let mut out = *kernel;
-    match unit.form {
-        Form::Plain if unit.rom.is_some() => {}
-        Form::Blend(shift) if unit.rom.is_some() => {
-            for lane in 0..LANES {
-                out[lane] = unit.blend(place[lane].fraction(), kernel[lane], shift, site);
-            }
-        }
-        _ => {
-            for lane in 0..LANES {
-                out[lane] = unit.hat(place[lane].fraction(), site);
-            }
-        }
+fn weights<W: Packed, S: Simd>(land: &Land<'_, W, S>, fraction: i32x16<S>) -> i32x16<S> {
+    let point = W::Words::<S>::POINT;
+    let hat = (1 << point) - fraction;
+    let Some(rom) = &land.surface.rom else { return hat };
+    let shift = match land.surface.form {
+        Form::Blend(shift) => shift,
+        Form::Hat => return hat,
+        Form::Plain | Form::Stretch => 0,
+    };
+    // The nearest entry.
+    let places = point - rom.log2();
+    let entries = ((fraction + (1 << (places - 1))) >> places).to_array();
+    let weight = |lane: usize| -> i64 { rom.weight(entries[lane] as usize).int().into() };
+    let kernel = i32x16::simd_from(land.simd, std::array::from_fn(|lane| weight(lane) as i32));
+    if shift == 0 {
+        return kernel;
     }
-    out
+    // The difference is shifted toward zero; a shift by all bits leaves the hat.
+    let difference = kernel - hat;
+    let places = shift.min(31);
+    let up = (difference >> 31) & (((1_u32 << places) - 1) as i32);
+    hat + ((difference + up) >> places)
 }

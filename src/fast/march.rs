@@ -7,39 +7,26 @@
 //! above the block's highest node, no sample between them hits (samples of a ray lie on a line, the
 //! surface stays within its nodes), and the ray goes on with the first sample after it. In a single
 //! cell that is not passed so, `solve` finds the first sample under the surface.
-//!
-//! Loops over lanes are plain and branch-free, so that they vectorise; loads stand in loops of
-//! their own.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::maxima::{Maxima, NOTHING};
+use super::words::{LANES, Packed, Words};
 use super::{refine, solve};
 use crate::frame::Hit;
 use crate::setup::TerrainUnits;
 use crate::unit::Line;
+use crate::unit::height_memory::Edge;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::line::{Entry, Work};
-use crate::unit::stepper::{Heading, Place, Stepper};
-use crate::word::{Cell, Enter as _, Interpolating, Lane, Site, Word as _, World};
-
-/// Rays that walk together.
-pub const LANES: usize = 16;
-
-/// One per lane: 1 where something holds, else 0. Numbers of the words' width mix with them in
-/// vectors, `bool`s would not.
-pub type Flags = [u32; LANES];
-
-/// A world whose words are plain integers: the stock worlds.
-pub trait Packed:
-    Interpolating + World<View: Lane, Ground: Lane, Height: Lane, Weight: Lane>
-{
-}
-impl<W> Packed for W where
-    W: Interpolating + World<View: Lane, Ground: Lane, Height: Lane, Weight: Lane>
-{
-}
+use crate::unit::stepper::{Place, Stepper};
+use crate::word::{Lane as _, Site, Word as _, World};
 
 /// What a walk needs to know of the map.
-pub struct Land<'a, W: World> {
+pub struct Land<'a, W: World, S> {
+    /// SIMD level.
+    pub simd: S,
     /// The machine's stepper.
     pub stepper: &'a Stepper<W>,
     /// The machine's interpolator.
@@ -48,57 +35,59 @@ pub struct Land<'a, W: World> {
     pub maxima: &'a Maxima,
 }
 
+impl<W: World, S: Simd> Land<'_, W, S> {
+    /// Where the map has a surface in cell (i, j).
+    #[inline(always)]
+    pub fn inside(&self, i: i32x16<S>, j: i32x16<S>) -> mask32x16<S> {
+        let memory = &*self.surface.heights;
+        let within = |at: i32x16<S>, nodes: i32| {
+            at.bitcast::<u32x16<S>>().simd_lt((nodes - 1) as u32)
+        };
+        match memory.edge() {
+            Edge::Ends => within(i, memory.columns()) & within(j, memory.rows()),
+            Edge::Clamps | Edge::Wraps => mask32x16::simd_from(self.simd, true),
+        }
+    }
+}
+
 /// A packet of rays, component by component.
-pub struct Rays<W: World> {
-    /// The first place that has not been tested.
-    pub x: [W::Ground; LANES],
-    /// Its height.
-    pub y: [W::Height; LANES],
-    /// Its z.
-    pub z: [W::Ground; LANES],
-    /// Step.
-    pub dx: [W::Ground; LANES],
-    /// Step in height.
-    pub dy: [W::Height; LANES],
-    /// Step in z.
-    pub dz: [W::Ground; LANES],
+pub struct Rays<W: Packed, S: Simd> {
+    /// The first place that has not been tested: x, y, z.
+    pub place: [W::Words<S>; 3],
+    /// The step.
+    pub step: [W::Words<S>; 3],
     /// Index of the sample at that place.
-    pub index: [u32; LANES],
-    /// Cells outside of which the ray has left the map behind: first and last, x and z.
-    within: [[i32; LANES]; 4],
-    /// The ray does not fall.
-    rises: Flags,
-    /// The ray does not rise, and the map has a base.
-    falls: Flags,
-    level: [u32; LANES],
+    pub index: u32x16<S>,
+    /// Block size that is tried next.
+    level: u32x16<S>,
     /// Looks for a block that it does not pass.
-    pub walks: Flags,
+    pub walks: mask32x16<S>,
     /// Stands in a cell that it may not pass.
-    pub near: Flags,
+    pub near: mask32x16<S>,
     /// More samples of the ray in that cell.
-    pub more: [u32; LANES],
+    pub more: u32x16<S>,
     /// Stands at its first sample under the surface.
-    pub hits: Flags,
+    pub hits: mask32x16<S>,
     /// What becomes of a ray that does not hit.
     pub outcome: [Hit; LANES],
-    /// Reciprocals of the longest steps in x and z.
+    /// Cells outside of which the ray has left the map behind: first and last x, first and last z.
+    within: [i32x16<S>; 4],
+    /// The ray does not fall.
+    rises: mask32x16<S>,
+    /// The ray does not rise, and the map has a base.
+    falls: mask32x16<S>,
+    /// Reciprocals of the packet's longest steps in x and z.
     inverse: [u32; 2],
-    /// The longest steps in x and z.
-    pub longest: [W::Ground; 2],
+    /// The longest steps in x and z, 16 fraction bits, rounded up.
+    pub longest: [u64; 2],
 }
 
-/// Whether any flag is set.
+/// Runs the stepper on neighbouring lines, by packets where set-up has made maxima.
 #[inline(always)]
-pub fn any(flags: &Flags) -> bool {
-    flags.iter().fold(0, |any, flag| any | flag) != 0
-}
-
-/// Runs the stepper on neighbouring lines: `run` where the map repeats nowhere and has maxima.
-#[inline(always)]
-pub fn walk<W: Packed>(units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
+pub fn walk<W: Packed, S: Simd>(simd: S, units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
     let (stepper, surface) = (&units.stepper, &units.interpolator);
     match units.maxima.as_deref() {
-        Some(maxima) => run(&Land { stepper, surface, maxima }, lines),
+        Some(maxima) => run(&Land { simd, stepper, surface, maxima }, lines),
         None => lines.iter_mut().for_each(|line| stepper.run(line, surface)),
     }
 }
@@ -106,23 +95,21 @@ pub fn walk<W: Packed>(units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
 /// Drives `hit`, `ground_x`, `ground_z` and `steps` of neighbouring lines as the stepper does. Work
 /// is not counted here: trials are the processor's.
 #[inline(always)]
-pub fn run<W: Packed>(land: &Land<'_, W>, lines: &mut [Line<W>]) {
+fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, lines: &mut [Line<W>]) {
     let shape = Shape { lines: lines.len(), width: LANES / lines.len() };
     let columns = lines.first().map_or(0, Line::len);
-    let mut from = 0;
-    while from < columns {
-        let mut rays = start(land.stepper, lines, shape, from);
-        while any(&rays.walks) {
-            while any(&rays.walks) {
+    for from in (0..columns).step_by(shape.width) {
+        let mut rays = start(land, lines, shape, from);
+        while rays.walks.any_true() {
+            while rays.walks.any_true() {
                 trial(land, &mut rays);
             }
-            if any(&rays.near) {
+            if rays.near.any_true() {
                 solve::run(land, &mut rays);
             }
         }
         refine::run(land, &mut rays);
         finish(&rays, lines, shape, from);
-        from += shape.width;
     }
 }
 
@@ -141,74 +128,23 @@ impl Shape {
     }
 }
 
-impl<W: World> Rays<W> {
-    /// The place of a lane.
-    #[inline(always)]
-    pub fn place(&self, lane: usize) -> Place<W> {
-        Place { x: self.x[lane], y: self.y[lane], z: self.z[lane] }
-    }
-
-    /// The step of a lane.
-    #[inline(always)]
-    pub fn step(&self, lane: usize) -> Place<W> {
-        Place { x: self.dx[lane], y: self.dy[lane], z: self.dz[lane] }
-    }
-
-    /// Moves a lane.
-    #[inline(always)]
-    pub fn set(&mut self, lane: usize, place: Place<W>) {
-        (self.x[lane], self.y[lane], self.z[lane]) = (place.x, place.y, place.z);
-    }
-
-    /// Where a ray ends, from where it is heading.
-    #[inline(always)]
-    fn head(&mut self, lane: usize, heading: Heading, extent: Option<(i32, i32)>) {
-        let within = extent.map_or([i32::MIN, i32::MAX, i32::MIN, i32::MAX], |(columns, rows)| {
-            [
-                if heading.west { 0 } else { i32::MIN },
-                if heading.east { columns - 2 } else { i32::MAX },
-                if heading.north { 0 } else { i32::MIN },
-                if heading.south { rows - 2 } else { i32::MAX },
-            ]
-        });
-        for (all, one) in self.within.iter_mut().zip(within) {
-            all[lane] = one;
-        }
-        self.rises[lane] = u32::from(heading.rises);
-        self.falls[lane] = u32::from(heading.falls && extent.is_some());
-    }
-}
-
 /// The rays of a packet at their first samples; lanes without a ray are done.
 #[inline(always)]
-fn start<W: Packed>(
-    stepper: &Stepper<W>,
+fn start<W: Packed, S: Simd>(
+    land: &Land<'_, W, S>,
     lines: &[Line<W>],
     shape: Shape,
     from: usize,
-) -> Rays<W> {
+) -> Rays<W, S> {
+    let (simd, stepper) = (land.simd, land.stepper);
     let eye = stepper.eye();
+    let mut place = [[W::Int::default(); LANES]; 3];
+    let mut step = [[W::Int::default(); LANES]; 3];
+    let mut within = [[0; LANES]; 4];
+    let (mut rises, mut falls, mut walks) = ([0; LANES], [0; LANES], [0; LANES]);
+    let mut outcome = [Hit::Sky; LANES];
     let still = eye.minus(eye);
-    let mut rays = Rays {
-        x: [eye.x; LANES],
-        y: [eye.y; LANES],
-        z: [eye.z; LANES],
-        dx: [still.x; LANES],
-        dy: [still.y; LANES],
-        dz: [still.z; LANES],
-        index: [1; LANES],
-        within: [[0; LANES]; 4],
-        rises: [0; LANES],
-        falls: [0; LANES],
-        level: [0; LANES],
-        walks: [0; LANES],
-        near: [0; LANES],
-        more: [0; LANES],
-        hits: [0; LANES],
-        outcome: [Hit::Sky; LANES],
-        inverse: [0; 2],
-        longest: [still.x, still.z],
-    };
+    let mut longest = [still.x, still.z];
     for lane in 0..LANES {
         let (row, column) = shape.pixel(lane);
         let i = from + column;
@@ -219,121 +155,151 @@ fn start<W: Packed>(
         match if stepper.from_eye { Entry::Met } else { line.entry[i] } {
             Entry::Sky => continue,
             Entry::Far => {
-                rays.outcome[lane] = stepper.beyond;
+                outcome[lane] = stepper.beyond;
                 continue;
             }
             Entry::Met => {}
         }
-        let place = if stepper.from_eye {
+        let first = if stepper.from_eye {
             eye
         } else {
             Place { x: line.ground_x[i], y: stepper.top, z: line.ground_z[i] }
         };
         let site = Site::pixel(line.number, line.column[i]);
-        let step = stepper.step(line.view_x[i], line.view_y[i], line.view_z[i], site);
-        let heading = stepper.heading(step);
-        if stepper.is_over(place, heading) {
+        let ahead = stepper.step(line.view_x[i], line.view_y[i], line.view_z[i], site);
+        let heading = stepper.heading(ahead);
+        if stepper.is_over(first, heading) {
             continue;
         }
         if stepper.last == 0 {
-            rays.outcome[lane] = Hit::Far;
+            outcome[lane] = Hit::Far;
             continue;
         }
-        rays.set(lane, place.plus(step));
-        (rays.dx[lane], rays.dy[lane], rays.dz[lane]) = (step.x, step.y, step.z);
-        rays.head(lane, heading, stepper.extent);
-        rays.walks[lane] = 1;
+        let first = first.plus(ahead);
+        for (words, place) in [(&mut place, first), (&mut step, ahead)] {
+            words[0][lane] = place.x.int();
+            words[1][lane] = place.y.int();
+            words[2][lane] = place.z.int();
+        }
+        let ends = stepper.extent;
+        let (columns, rows) = ends.unwrap_or((0, 0));
+        let bound = |ends_there: bool, cell: i32, open: i32| {
+            if ends.is_some() && ends_there { cell } else { open }
+        };
+        within[0][lane] = bound(heading.west, 0, i32::MIN);
+        within[1][lane] = bound(heading.east, columns - 2, i32::MAX);
+        within[2][lane] = bound(heading.north, 0, i32::MIN);
+        within[3][lane] = bound(heading.south, rows - 2, i32::MAX);
+        rises[lane] = -i32::from(heading.rises);
+        falls[lane] = -i32::from(heading.falls && ends.is_some());
+        walks[lane] = -1;
+        let (x, z) = (ahead.x.magnitude(), ahead.z.magnitude());
+        longest[0] = if x > longest[0] { x } else { longest[0] };
+        longest[1] = if z > longest[1] { z } else { longest[1] };
     }
-    for lane in 0..LANES {
-        let (x, z) = (rays.dx[lane].magnitude(), rays.dz[lane].magnitude());
-        let [longest_x, longest_z] = rays.longest;
-        rays.longest = [
-            if x > longest_x { x } else { longest_x },
-            if z > longest_z { z } else { longest_z },
-        ];
+    let mask = |flags: [i32; LANES]| mask32x16::simd_from(simd, flags);
+    let number = |number: u32| u32x16::simd_from(simd, number);
+    Rays {
+        place: place.map(|words| W::Words::load(simd, words)),
+        step: step.map(|words| W::Words::load(simd, words)),
+        index: number(1),
+        level: number(0),
+        walks: mask(walks),
+        near: mask([0; LANES]),
+        more: number(0),
+        hits: mask([0; LANES]),
+        outcome,
+        within: within.map(|cells| i32x16::simd_from(simd, cells)),
+        rises: mask(rises),
+        falls: mask(falls),
+        inverse: longest.map(|step| step.inverse()),
+        // From the reciprocal: 2^36 / (2^(FRACTION + 20) / |step|), 16 bits of the step.
+        longest: longest.map(|step| (1_u64 << 36) / u64::from(step.inverse()) + 1),
     }
-    rays.inverse = [rays.longest[0].inverse(), rays.longest[1].inverse()];
-    rays
 }
 
-/// One block of every walking lane: passed, or looked at more closely.
+impl<W: Packed, S: Simd> Rays<W, S> {
+    /// Moves rays so many samples on.
+    #[inline(always)]
+    pub fn advance(&mut self, steps: u32x16<S>) {
+        for (place, step) in self.place.iter_mut().zip(self.step) {
+            *place = place.after(step, steps);
+        }
+        self.index += steps;
+    }
+}
+
+/// One block of every walking ray: passed, or looked at more closely.
 #[inline(always)]
-fn trial<W: Packed>(land: &Land<'_, W>, rays: &mut Rays<W>) {
+fn trial<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
     let (stepper, maxima) = (land.stepper, land.maxima);
-    let mut held = [1; LANES];
-    let mut addresses = [0; LANES];
-    for lane in 0..LANES {
-        (addresses[lane], held[lane]) =
-            maxima.address(rays.level[lane], rays.x[lane].cell(), rays.z[lane].cell());
-    }
-    let mut bounds = [0; LANES];
-    for lane in 0..LANES {
-        bounds[lane] = i32::from(maxima.at(addresses[lane]));
-    }
+    let [x, y, z] = rays.place;
+    let [dx, dy, dz] = rays.step;
+    let (level, walks) = (rays.level, rays.walks);
+    let (addresses, held) = maxima.addresses(level, x.cell(), z.cell());
+    let bounds = maxima.bounds(addresses);
+
     let [inverse_x, inverse_z] = rays.inverse;
-    for lane in 0..LANES {
-        let walks = rays.walks[lane];
-        let level = rays.level[lane];
-        let (x, y, z) = (rays.x[lane], rays.y[lane], rays.z[lane]);
-        let (dx, dy, dz) = (rays.dx[lane], rays.dy[lane], rays.dz[lane]);
-        let more = x.steps_within(dx, level, inverse_x);
-        let more = more.min(z.steps_within(dz, level, inverse_z));
-        let more = more.min(stepper.last.wrapping_sub(rays.index[lane]));
-        let end = y.after(dy, more);
-        let low = if end < y { end } else { y };
-        let nothing = (held[lane] ^ 1) | u32::from(bounds[lane] == i32::from(NOTHING));
-        let clear = nothing | u32::from(low.coarse(maxima.places()) >= bounds[lane]);
-        let passes = walks & clear;
-        let steps = if passes == 1 { more + 1 } else { 0 };
-        rays.x[lane] = x.after(dx, steps);
-        rays.y[lane] = y.after(dy, steps);
-        rays.z[lane] = z.after(dz, steps);
-        rays.index[lane] += steps;
-        rays.more[lane] = more;
-        // Beside the map, a ray that falls under its base is over.
-        let sinks = passes & nothing & rays.falls[lane] & u32::from(end < stepper.base);
-        let stands = walks & (clear ^ 1) & u32::from(level == 0);
-        rays.near[lane] |= stands;
-        rays.walks[lane] = walks & (stands ^ 1) & (sinks ^ 1);
-        let finer = level.saturating_sub(walks & (clear ^ 1));
-        rays.level[lane] = if passes == 1 { (level + 1).min(maxima.top()) } else { finer };
-    }
-    end(stepper, rays);
+    let left = stepper.last - rays.index;
+    let more = x.steps_within(dx, level, inverse_x).min(z.steps_within(dz, level, inverse_z));
+    let more = more.min(left);
+    let end = y.after(dy, more);
+    let nothing = !held | bounds.simd_eq(i32::from(NOTHING));
+    let clear = nothing | y.lesser(end).coarse(maxima.places()).simd_ge(bounds);
+    let passes = walks & clear;
+    let stays = walks & !clear;
+    rays.more = more;
+    rays.advance(passes.select(more + 1, more - more));
+    // Beside the map, a ray that falls under its base is over.
+    let base = W::Words::splat(land.simd, stepper.base.int());
+    let sinks = passes & nothing & rays.falls & end.less(base);
+    let stands = stays & level.simd_eq(0);
+    rays.near |= stands;
+    rays.walks &= !(stands | sinks);
+    let finer = stays.select(level.max(1) - 1, level);
+    rays.level = passes.select((level + 1).min(maxima.top()), finer);
+    end_walks(land, rays);
 }
 
 /// Ends the walks that can no longer meet the surface, as `Stepper::is_over` says, or whose samples
 /// are used up.
 #[inline(always)]
-pub fn end<W: Packed>(stepper: &Stepper<W>, rays: &mut Rays<W>) {
-    let mut out = [0; LANES];
-    for lane in 0..LANES {
-        out[lane] = rays.walks[lane] & u32::from(rays.index[lane] > stepper.last);
-    }
-    if any(&out) {
-        for lane in 0..LANES {
-            if out[lane] == 1 {
-                let step = rays.step(lane);
-                let last = rays.place(lane).minus(step);
-                let over = stepper.is_over(last, stepper.heading(step));
-                rays.outcome[lane] = if over { Hit::Sky } else { Hit::Far };
-            }
+pub fn end_walks<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
+    let stepper = land.stepper;
+    let used_up = rays.walks & rays.index.simd_gt(stepper.last);
+    if used_up.any_true() {
+        let [x, y, z] = std::array::from_fn(|axis| (rays.place[axis] - rays.step[axis]).store());
+        let [dx, dy, dz] = rays.step.map(Words::store);
+        for lane in (0..LANES).filter(|&lane| used_up.test(lane)) {
+            let last = place::<W>(x[lane], y[lane], z[lane]);
+            let step = place::<W>(dx[lane], dy[lane], dz[lane]);
+            let over = stepper.is_over(last, stepper.heading(step));
+            rays.outcome[lane] = if over { Hit::Sky } else { Hit::Far };
         }
     }
-    let [first_x, last_x, first_z, last_z] = &rays.within;
-    for lane in 0..LANES {
-        let (i, j) = (rays.x[lane].cell(), rays.z[lane].cell());
-        let over = u32::from(i < first_x[lane])
-            | u32::from(i > last_x[lane])
-            | u32::from(j < first_z[lane])
-            | u32::from(j > last_z[lane])
-            | (rays.rises[lane] & u32::from(rays.y[lane] >= stepper.top));
-        rays.walks[lane] &= (over | out[lane]) ^ 1;
-    }
+    let [x, y, z] = rays.place;
+    let [first_x, last_x, first_z, last_z] = rays.within;
+    let (i, j) = (x.cell(), z.cell());
+    let below_top = y.less(W::Words::splat(land.simd, stepper.top.int()));
+    let over = i.simd_lt(first_x)
+        | i.simd_gt(last_x)
+        | j.simd_lt(first_z)
+        | j.simd_gt(last_z)
+        | (rays.rises & !below_top);
+    rays.walks &= !(over | used_up);
+}
+
+/// A place from its bits.
+#[inline(always)]
+pub fn place<W: Packed>(x: W::Int, y: W::Int, z: W::Int) -> Place<W> {
+    Place { x: W::Ground::of_int(x), y: W::Height::of_int(y), z: W::Ground::of_int(z) }
 }
 
 /// Puts the packet's ends on the wires.
 #[inline(always)]
-fn finish<W: World>(rays: &Rays<W>, lines: &mut [Line<W>], shape: Shape, from: usize) {
+fn finish<W: Packed, S: Simd>(rays: &Rays<W, S>, lines: &mut [Line<W>], shape: Shape, from: usize) {
+    let [x, _, z] = rays.place.map(Words::store);
+    let index = rays.index.to_array();
     for lane in 0..LANES {
         let (row, column) = shape.pixel(lane);
         let i = from + column;
@@ -342,9 +308,9 @@ fn finish<W: World>(rays: &Rays<W>, lines: &mut [Line<W>], shape: Shape, from: u
         }
         let line = &mut lines[row];
         line.hit[i] = rays.outcome[lane];
-        line.steps[i] = rays.index[lane];
+        line.steps[i] = index[lane];
         line.work[i] = Work::default();
-        line.ground_x[i] = rays.x[lane];
-        line.ground_z[i] = rays.z[lane];
+        line.ground_x[i] = W::Ground::of_int(x[lane]);
+        line.ground_z[i] = W::Ground::of_int(z[lane]);
     }
 }

@@ -5,6 +5,9 @@
 //! a jump is a shift. Here a ray is followed to the very end of its block, which takes a
 //! multiplication, and each block is bounded alone.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{i32x16, mask32x16, u32x16};
+
 use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::pyramid::{cell_maxima, halve_into};
 
@@ -33,7 +36,7 @@ pub struct Bend {
     /// Half the largest second derivative, 8 fraction bits.
     pub half_curvature: u64,
     /// Five times the largest difference of a table's weight to the kernel's, 16 fraction bits.
-    pub error: u64,
+    pub error: u32,
 }
 
 /// Bound of a cell that has no surface.
@@ -85,26 +88,35 @@ impl Maxima {
         self.bend
     }
 
-    /// Address of the block of a level that holds cell (i, j), and 1 where there is such a block.
+    /// Addresses of the blocks of a level that hold cells (i, j), and where there is such a block;
+    /// elsewhere the address is that of any.
     #[inline(always)]
-    pub fn address(&self, level: u32, i: i32, j: i32) -> (u32, u32) {
+    pub fn addresses<S: Simd>(
+        &self,
+        level: u32x16<S>,
+        i: i32x16<S>,
+        j: i32x16<S>,
+    ) -> (u32x16<S>, mask32x16<S>) {
+        let simd = level.token();
+        let places = level.bitcast::<i32x16<S>>();
         let (last_i, last_j) = (self.cells.0 - 1, self.cells.1 - 1);
-        let (i, j, held) = if self.ends {
-            let (i, j) = (i >> level, j >> level);
-            let held = u32::from(i as u32 <= (last_i >> level) as u32)
-                & u32::from(j as u32 <= (last_j >> level) as u32);
-            (i, j, held)
-        } else {
-            (i.clamp(0, last_i) >> level, j.clamp(0, last_j) >> level, 1)
+        let (i, j) = if self.ends { (i, j) } else { (i.max(0).min(last_i), j.max(0).min(last_j)) };
+        let (i, j) = (i >> places, j >> places);
+        let block = |last: i32| i32x16::simd_from(simd, last) >> places;
+        let within = |at: i32x16<S>, last: i32x16<S>| {
+            at.bitcast::<u32x16<S>>().simd_le(last.bitcast::<u32x16<S>>())
         };
-        let row = 2 * self.rows - (2 * self.rows >> level) + j;
-        let address = row.wrapping_mul(self.stride).wrapping_add(i);
-        ((address as u32) & 0_u32.wrapping_sub(held), held)
+        let held = within(i, block(last_i)) & within(j, block(last_j));
+        let first_row = 2 * self.rows - block(2 * self.rows);
+        let address = (first_row + j) * self.stride + i;
+        (held.select(address, address - address).bitcast(), held)
     }
 
-    /// The bound at an address.
+    /// The bounds at addresses.
     #[inline(always)]
-    pub fn at(&self, address: u32) -> i16 {
-        self.bounds[address as usize]
+    pub fn bounds<S: Simd>(&self, addresses: u32x16<S>) -> i32x16<S> {
+        let at = addresses.to_array();
+        let bound = |lane: usize| i32::from(self.bounds[at[lane] as usize]);
+        i32x16::simd_from(addresses.token(), std::array::from_fn(bound))
     }
 }

@@ -12,8 +12,9 @@ pub mod march;
 pub mod maxima;
 pub mod refine;
 pub mod solve;
+pub mod words;
 
-use fearless_simd::{Level, Simd as _, dispatch};
+use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 
 use crate::frame::Frame;
@@ -40,14 +41,19 @@ pub fn run_lines<W: Complete + Enterable>(setup: &Setup<W>, first: u32, lines: &
     for group in lines.chunks_mut(GROUP) {
         dispatch!(level, simd => simd.vectorize(
             #[inline(always)]
-            || run_units(setup, number, group)
+            || run_units(simd, setup, number, group)
         ));
         number += group.len() as u32;
     }
 }
 
 #[inline(always)]
-fn run_units<W: Complete + Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
+fn run_units<W: Complete + Enterable, S: Simd>(
+    simd: S,
+    setup: &Setup<W>,
+    first: u32,
+    lines: &mut [Line<W>],
+) {
     for (line, number) in lines.iter_mut().zip(first..) {
         line.number = number;
         let start = enter::line_start(&setup.projector, number);
@@ -58,7 +64,7 @@ fn run_units<W: Complete + Enterable>(setup: &Setup<W>, first: u32, lines: &mut 
     }
     match &setup.back {
         Back::Terrain(units) => {
-            W::walk(units, lines);
+            W::walk(simd, units, lines);
             lines.iter_mut().for_each(|line| units.shade(line));
         }
         Back::Plane(shader) => lines.iter_mut().for_each(|line| shader.run(line)),

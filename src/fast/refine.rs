@@ -1,52 +1,52 @@
-//! Halvings of the last step of every ray that has hit, all lanes at once.
+//! Halvings of the last step of every ray that has hit, all rays of a packet at once.
+
+use fearless_simd::prelude::*;
+use fearless_simd::u32x16;
 
 use super::heights::{heights, nodes};
-use super::march::{LANES, Land, Packed, Rays, any};
+use super::march::{Land, Rays, place};
+use super::words::{LANES, Packed, Words};
 use crate::frame::Hit;
-use crate::word::{Cell as _};
+use crate::word::{Cell as _, Lane as _};
 
-/// Moves lanes that hit from their first sample under the surface to the place of the hit.
+/// Moves rays that hit from their first sample under the surface to the place of the hit.
 #[inline(always)]
-pub fn run<W: Packed>(land: &Land<'_, W>, rays: &mut Rays<W>) {
-    let (stepper, surface) = (land.stepper, land.surface);
-    if !any(&rays.hits) {
+pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
+    let (stepper, memory) = (land.stepper, &*land.surface.heights);
+    if !rays.hits.any_true() {
         return;
     }
-    let mut times = [0_u32; LANES];
-    for lane in 0..LANES {
-        let hit = rays.hits[lane] == 1;
-        times[lane] = if hit { stepper.halvings_at(rays.place(lane)) } else { 0 };
-        if hit {
-            rays.set(lane, rays.place(lane).minus(rays.step(lane)));
-        }
+    let [x, y, z] = rays.place.map(Words::store);
+    let mut times = [0; LANES];
+    for lane in (0..LANES).filter(|&lane| rays.hits.test(lane)) {
+        times[lane] = stepper.halvings_at(place(x[lane], y[lane], z[lane]));
     }
     let most = times.iter().fold(0, |most, &t| most.max(t));
-    let memory = &*surface.heights;
+    let halvings = u32x16::simd_from(land.simd, times);
+    for (place, step) in rays.place.iter_mut().zip(rays.step) {
+        *place = *place - step;
+    }
     for halving in 1..=most {
-        let (mut x, mut y, mut z) = (rays.x, rays.y, rays.z);
-        for lane in 0..LANES {
-            let middle = rays.place(lane).plus(rays.step(lane).halved(halving));
-            (x[lane], y[lane], z[lane]) = (middle.x, middle.y, middle.z);
-        }
-        let nodes = nodes(surface, &x, &z);
-        let surfaces = heights(surface, &nodes, &x, &z);
-        for lane in 0..LANES {
-            let inside = u32::from(memory.contains(x[lane].cell(), z[lane].cell()));
-            let under = inside & u32::from(y[lane] < surfaces[lane]);
-            let moves = u32::from(halving <= times[lane]) & (under ^ 1) == 1;
-            rays.x[lane] = if moves { x[lane] } else { rays.x[lane] };
-            rays.y[lane] = if moves { y[lane] } else { rays.y[lane] };
-            rays.z[lane] = if moves { z[lane] } else { rays.z[lane] };
+        let middle: [_; 3] =
+            std::array::from_fn(|axis| rays.place[axis] + rays.step[axis].halved(halving));
+        let [x, y, z] = middle;
+        let nodes = nodes(land, x.cell(), z.cell());
+        let under = y.less(heights(land, &nodes, x, z)) & land.inside(x.cell(), z.cell());
+        let moves = halvings.simd_ge(halving) & !under;
+        for (place, middle) in rays.place.iter_mut().zip(middle) {
+            *place = W::Words::select(moves, middle, *place);
         }
     }
-    for lane in 0..LANES {
-        if rays.hits[lane] == 0 {
-            continue;
-        }
-        let (clear, step) = (rays.place(lane), rays.step(lane));
+    let [mut x, y, mut z] = rays.place.map(Words::store);
+    let [dx, dy, dz] = rays.step.map(Words::store);
+    for lane in (0..LANES).filter(|&lane| rays.hits.test(lane)) {
+        let clear = place::<W>(x[lane], y[lane], z[lane]);
+        let step = place::<W>(dx[lane], dy[lane], dz[lane]);
         let meets = memory.contains(clear.x.cell(), clear.z.cell());
         let place = clear.plus(step.halved(times[lane] + u32::from(meets)));
         rays.outcome[lane] = if meets { Hit::Surface } else { stepper.beside(place, step) };
-        rays.set(lane, place);
+        (x[lane], z[lane]) = (place.x.int(), place.z.int());
     }
+    rays.place[0] = W::Words::load(land.simd, x);
+    rays.place[2] = W::Words::load(land.simd, z);
 }

@@ -153,7 +153,7 @@ fn bend(kernel: &Kernel, form: Form) -> Bend {
     Bend {
         slope_squared: up(steepest * steepest, 8),
         half_curvature: up(share * kernel::most_curved(kernel.shape) / 2.0, 8),
-        error: up(5.0 * entry, 16),
+        error: up(5.0 * entry, 16) as u32,
     }
 }
 

@@ -28,6 +28,11 @@ impl<T: Word> KernelRom<T> {
         Self { log2, weight, slope }
     }
 
+    /// Entries per unit, as a power of two.
+    pub fn log2(&self) -> u32 {
+        self.log2
+    }
+
     /// The entry nearest to an argument in `[0, 1]`.
     #[inline(always)]
     pub fn entry(&self, argument: impl Cell) -> usize {

@@ -227,18 +227,19 @@ pub trait Enter: Word {
 /// The fast engine only: a word as the integer that it is, for arithmetic on rays that the machine
 /// does not have. Stock words have it.
 pub trait Lane: Enter {
+    /// The integer.
+    type Int;
     /// Fraction bits.
     const FRACTION: u32;
 
-    /// The bits shifted right, rounded down, within 32 bits.
-    fn coarse(self, places: u32) -> i32;
+    /// The word's bits.
+    fn int(self) -> Self::Int;
+
+    /// The word of these bits.
+    fn of_int(int: Self::Int) -> Self;
 
     /// `floor(2^(FRACTION + 20) / |self|)`, at most 2^26.
     fn inverse(self) -> u32;
-
-    /// For a position: how many steps stay within its block of 2^level cells. `inverse` is that of
-    /// the step or of a longer one; the answer may then be too small, never too large.
-    fn steps_within(self, step: Self, level: u32, inverse: u32) -> u32;
 }
 
 /// A number world: a word type per register class, and the format of every register.

@@ -28,7 +28,7 @@ trait Bits: Copy {
 }
 
 macro_rules! stock_words {
-    ($world:ident $name:literal, $int:ident, $unsigned:ident, $product:ident, $fixed:ident,
+    ($world:ident $name:literal, $int:ident, $product:ident, $fixed:ident,
      $($(#[$doc:meta])* $word:ident: $fraction:ident,)*) => {
         $(
             $(#[$doc])*
@@ -189,30 +189,21 @@ macro_rules! stock_words {
             }
 
             impl Lane for $word {
+                type Int = $int;
                 const FRACTION: u32 = Self::POINT;
 
                 #[inline(always)]
-                fn coarse(self, places: u32) -> i32 {
-                    // A word of 32 bits stays as it is here.
-                    #[allow(clippy::unnecessary_min_or_max, reason = "64-bit words do not")]
-                    let within = (self.bits() >> places)
-                        .max($int::from(i32::MIN))
-                        .min($int::from(i32::MAX));
-                    within as i32
+                fn int(self) -> $int {
+                    self.bits()
+                }
+                #[inline(always)]
+                fn of_int(int: $int) -> Self {
+                    Self::of(int)
                 }
                 #[inline(always)]
                 fn inverse(self) -> u32 {
                     let step = u64::from(self.bits().unsigned_abs()).max(1);
                     ((1_u64 << (Self::POINT + 20)) / step).min(1 << 26) as u32
-                }
-                #[inline(always)]
-                fn steps_within(self, step: Self, level: u32, inverse: u32) -> u32 {
-                    // What is left of the block ahead of the place is what is behind its mirror
-                    // image.
-                    let mirror = !(step.bits() >> ($int::BITS - 1)) as $unsigned;
-                    let block = ((1 as $unsigned) << (level + Self::POINT)) - 1;
-                    let left = (self.bits() as $unsigned ^ mirror) & block;
-                    ((u64::from(left) * u64::from(inverse)) >> (Self::POINT + 20)) as u32
                 }
             }
         )*
@@ -263,7 +254,7 @@ macro_rules! stock_world {
     };
 }
 
-stock_words! { Narrow "narrow", i32, u32, i64, FixedI32,
+stock_words! { Narrow "narrow", i32, i64, FixedI32,
     /// View word of 32 bits, Q2.30.
     View32: U30,
     /// Ground word of 32 bits, Q12.20.
@@ -276,7 +267,7 @@ stock_words! { Narrow "narrow", i32, u32, i64, FixedI32,
     Tone32: U20,
 }
 
-stock_words! { Wide "wide", i64, u64, i128, FixedI64,
+stock_words! { Wide "wide", i64, i128, FixedI64,
     /// View word of 64 bits, Q26.38.
     View64: U38,
     /// Ground word of 64 bits, Q40.24.

@@ -1,0 +1,258 @@
+//! Vectors of sixteen words of a stock world, one per ray of a packet.
+//!
+//! Explicit vectors, where most loops of this project leave them to the compiler: it unrolls loops
+//! over so few lanes before it would vectorise them.
+
+use std::ops::{Add, Sub};
+
+use fearless_simd::prelude::*;
+use fearless_simd::{i32x16, i64x8, mask32x16, u32x16, u64x8};
+
+use crate::word::stock::{Narrow, Wide};
+use crate::word::{Interpolating, Lane, World};
+
+/// Rays of a packet.
+pub const LANES: usize = 16;
+
+/// A world whose words are plain integers with one binary point: the stock worlds.
+pub trait Packed:
+    Interpolating
+    + World<
+        View: Lane,
+        Ground: Lane<Int = Self::Int>,
+        Height: Lane<Int = Self::Int>,
+        Weight: Lane<Int = Self::Int>,
+    >
+{
+    /// The integer under ground, height and weight words.
+    type Int: Copy + Default + Into<i64>;
+    /// Sixteen of them.
+    type Words<S: Simd>: Words<S, Int = Self::Int>;
+}
+
+impl Packed for Narrow {
+    type Int = i32;
+    type Words<S: Simd> = i32x16<S>;
+}
+
+impl Packed for Wide {
+    type Int = i64;
+    type Words<S: Simd> = Pair<S>;
+}
+
+/// Sixteen words.
+pub trait Words<S: Simd>: Copy + Add<Output = Self> + Sub<Output = Self> {
+    /// One word.
+    type Int: Copy + Default;
+    /// Fraction bits.
+    const POINT: u32;
+
+    /// From one word per lane.
+    fn load(simd: S, words: [Self::Int; LANES]) -> Self;
+    /// One word in all lanes.
+    fn splat(simd: S, word: Self::Int) -> Self;
+    /// One word per lane.
+    fn store(self) -> [Self::Int; LANES];
+    /// Lane by lane, `yes` where the mask is set.
+    fn select(mask: mask32x16<S>, yes: Self, no: Self) -> Self;
+    /// Where words are less.
+    fn less(self, than: Self) -> mask32x16<S>;
+    /// The lesser words.
+    fn lesser(self, other: Self) -> Self;
+    /// `self + k·step`.
+    fn after(self, step: Self, k: u32x16<S>) -> Self;
+    /// Shifted right, rounded down.
+    fn halved(self, times: u32) -> Self;
+    /// Floor.
+    fn cell(self) -> i32x16<S>;
+    /// Bits behind the point.
+    fn fraction(self) -> i32x16<S>;
+    /// The bits shifted right, rounded down, within 32 bits.
+    fn coarse(self, places: u32) -> i32x16<S>;
+    /// Bits of the magnitude shifted right, rounded down, within 31 bits.
+    fn coarse_magnitude(self, places: u32) -> u32x16<S>;
+    /// How many more steps stay within the block of 2^level cells: too few if `inverse` is that of
+    /// a longer step, never too many (see [`Lane::inverse`]).
+    fn steps_within(self, step: Self, level: u32x16<S>, inverse: u32) -> u32x16<S>;
+    /// `self · weight`, weights with the words' point, rounded to nearest, ties upward.
+    fn weighted(self, weight: i32x16<S>) -> Self;
+}
+
+impl<S: Simd> Words<S> for i32x16<S> {
+    type Int = i32;
+    const POINT: u32 = <Narrow as World>::Ground::FRACTION;
+
+    #[inline(always)]
+    fn load(simd: S, words: [i32; LANES]) -> Self {
+        Self::simd_from(simd, words)
+    }
+    #[inline(always)]
+    fn splat(simd: S, word: i32) -> Self {
+        Self::simd_from(simd, word)
+    }
+    #[inline(always)]
+    fn store(self) -> [i32; LANES] {
+        self.to_array()
+    }
+    #[inline(always)]
+    fn select(mask: mask32x16<S>, yes: Self, no: Self) -> Self {
+        mask.select(yes, no)
+    }
+    #[inline(always)]
+    fn less(self, than: Self) -> mask32x16<S> {
+        self.simd_lt(than)
+    }
+    #[inline(always)]
+    fn lesser(self, other: Self) -> Self {
+        self.min(other)
+    }
+    #[inline(always)]
+    fn after(self, step: Self, k: u32x16<S>) -> Self {
+        self + step * k.bitcast::<Self>()
+    }
+    #[inline(always)]
+    fn halved(self, times: u32) -> Self {
+        self >> times.min(31)
+    }
+    #[inline(always)]
+    fn cell(self) -> i32x16<S> {
+        self >> Self::POINT
+    }
+    #[inline(always)]
+    fn fraction(self) -> i32x16<S> {
+        self & ((1 << Self::POINT) - 1)
+    }
+    #[inline(always)]
+    fn coarse(self, places: u32) -> i32x16<S> {
+        self >> places
+    }
+    #[inline(always)]
+    fn coarse_magnitude(self, places: u32) -> u32x16<S> {
+        self.max(-self).bitcast::<u32x16<S>>() >> places
+    }
+    #[inline(always)]
+    fn steps_within(self, step: Self, level: u32x16<S>, inverse: u32) -> u32x16<S> {
+        // What is left of the block ahead of the place is what is behind its mirror image.
+        let simd = self.token();
+        let mirror = !(step >> 31);
+        let block = u32x16::simd_from(simd, u32::MAX) >> (31 - Self::POINT + 1 - level);
+        let left = (self ^ mirror).bitcast::<u32x16<S>>() & block;
+        let (low, high) = left.widening_mul(u32x16::simd_from(simd, inverse));
+        (low >> (Self::POINT + 20)).narrow(high >> (Self::POINT + 20))
+    }
+    #[inline(always)]
+    fn weighted(self, weight: i32x16<S>) -> Self {
+        let (low, high) = self.widening_mul(weight);
+        let half = 1_i64 << (Self::POINT - 1);
+        ((low + half) >> Self::POINT).narrow((high + half) >> Self::POINT)
+    }
+}
+
+/// Sixteen words of 64 bits.
+#[derive(Clone, Copy)]
+pub struct Pair<S: Simd>(i64x8<S>, i64x8<S>);
+
+impl<S: Simd> Add for Pair<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0, self.1 + other.1)
+    }
+}
+
+impl<S: Simd> Sub for Pair<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0 - other.0, self.1 - other.1)
+    }
+}
+
+impl<S: Simd> Pair<S> {
+    #[inline(always)]
+    fn each(self, f: impl Fn(i64x8<S>) -> i64x8<S>) -> Self {
+        Self(f(self.0), f(self.1))
+    }
+}
+
+impl<S: Simd> Words<S> for Pair<S> {
+    type Int = i64;
+    const POINT: u32 = <Wide as World>::Ground::FRACTION;
+
+    #[inline(always)]
+    fn load(simd: S, words: [i64; LANES]) -> Self {
+        Self(
+            i64x8::simd_from(simd, std::array::from_fn(|at| words[at])),
+            i64x8::simd_from(simd, std::array::from_fn(|at| words[at + 8])),
+        )
+    }
+    #[inline(always)]
+    fn splat(simd: S, word: i64) -> Self {
+        let words = i64x8::simd_from(simd, word);
+        Self(words, words)
+    }
+    #[inline(always)]
+    fn store(self) -> [i64; LANES] {
+        let (low, high) = (self.0.to_array(), self.1.to_array());
+        std::array::from_fn(|at| if at < 8 { low[at] } else { high[at - 8] })
+    }
+    #[inline(always)]
+    fn select(mask: mask32x16<S>, yes: Self, no: Self) -> Self {
+        let (low, high) = mask.widen();
+        Self(low.select(yes.0, no.0), high.select(yes.1, no.1))
+    }
+    #[inline(always)]
+    fn less(self, than: Self) -> mask32x16<S> {
+        self.0.simd_lt(than.0).narrow(self.1.simd_lt(than.1))
+    }
+    #[inline(always)]
+    fn lesser(self, other: Self) -> Self {
+        Self(self.0.min(other.0), self.1.min(other.1))
+    }
+    #[inline(always)]
+    fn after(self, step: Self, k: u32x16<S>) -> Self {
+        let (low, high) = k.widen();
+        Self(
+            self.0 + step.0 * low.bitcast::<i64x8<S>>(),
+            self.1 + step.1 * high.bitcast::<i64x8<S>>(),
+        )
+    }
+    #[inline(always)]
+    fn halved(self, times: u32) -> Self {
+        self.each(|words| words >> times.min(63))
+    }
+    #[inline(always)]
+    fn cell(self) -> i32x16<S> {
+        (self.0 >> Self::POINT).narrow(self.1 >> Self::POINT)
+    }
+    #[inline(always)]
+    fn fraction(self) -> i32x16<S> {
+        self.0.narrow(self.1) & ((1 << Self::POINT) - 1)
+    }
+    #[inline(always)]
+    fn coarse(self, places: u32) -> i32x16<S> {
+        (self.0 >> places).saturating_narrow(self.1 >> places)
+    }
+    #[inline(always)]
+    fn coarse_magnitude(self, places: u32) -> u32x16<S> {
+        let Self(low, high) = self.each(|words| words.max(-words));
+        (low >> places).saturating_narrow(high >> places).bitcast()
+    }
+    #[inline(always)]
+    fn steps_within(self, step: Self, level: u32x16<S>, inverse: u32) -> u32x16<S> {
+        let (level_low, level_high) = level.widen();
+        let simd = self.0.token();
+        let left = |word: i64x8<S>, step: i64x8<S>, level: u64x8<S>| {
+            let block = u64x8::simd_from(simd, u64::MAX) >> (64 - u64::from(Self::POINT) - level);
+            let left = (word ^ !(step >> 63)).bitcast::<u64x8<S>>() & block;
+            (left * u64::from(inverse)) >> (Self::POINT + 20)
+        };
+        left(self.0, step.0, level_low).narrow(left(self.1, step.1, level_high))
+    }
+    #[inline(always)]
+    fn weighted(self, weight: i32x16<S>) -> Self {
+        let (low, high) = weight.widen();
+        let half = 1_i64 << (Self::POINT - 1);
+        Self((self.0 * low + half) >> Self::POINT, (self.1 * high + half) >> Self::POINT)
+    }
+}

@@ -20,17 +20,15 @@ pub fn nodes<W: Packed, S: Simd>(
     j: i32x16<S>,
 ) -> Nodes<W, S> {
     let memory = &*land.surface.heights;
-    let (i, j) = (i.to_array(), j.to_array());
-    let mut nodes = [[W::Int::default(); LANES]; 4];
-    for lane in 0..LANES {
-        let (west, east) = (memory.column(i[lane]), memory.column(i[lane].wrapping_add(1)));
-        let (north, south) = (memory.row(j[lane]), memory.row(j[lane].wrapping_add(1)));
-        nodes[0][lane] = memory.at(west, north).int();
-        nodes[1][lane] = memory.at(west, south).int();
-        nodes[2][lane] = memory.at(east, north).int();
-        nodes[3][lane] = memory.at(east, south).int();
-    }
-    nodes.map(|words| W::Words::load(land.simd, words))
+    let (columns, rows) = (memory.columns(), memory.rows());
+    let (west, east) = (i.max(0).min(columns - 1), (i + 1).max(0).min(columns - 1));
+    let (north, south) = (j.max(0).min(rows - 1) * columns, (j + 1).max(0).min(rows - 1) * columns);
+    let load = |address: i32x16<S>| {
+        let at = address.to_array();
+        let node = |lane: usize| memory.nodes()[at[lane] as usize].int();
+        W::Words::load(land.simd, std::array::from_fn(node))
+    };
+    [load(north + west), load(south + west), load(north + east), load(south + east)]
 }
 
 /// Heights at places in the cells of the nodes.

@@ -69,7 +69,7 @@ pub struct Rays<W: Packed, S: Simd> {
     /// Stands at its first sample under the surface.
     pub hits: mask32x16<S>,
     /// What becomes of a ray that does not hit.
-    pub outcome: [Hit; LANES],
+    pub outcome: i32x16<S>,
     /// Cells outside of which the ray has left the map behind: first and last x, first and last z.
     within: [i32x16<S>; 4],
     /// The ray does not fall.
@@ -113,6 +113,9 @@ fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, lines: &mut [Line<W>]) {
     }
 }
 
+/// Outcomes by number.
+const OUTCOMES: [Hit; 4] = [Hit::Sky, Hit::Surface, Hit::Side, Hit::Far];
+
 /// How the pixels of a packet lie.
 #[derive(Clone, Copy)]
 struct Shape {
@@ -142,7 +145,7 @@ fn start<W: Packed, S: Simd>(
     let mut step = [[W::Int::default(); LANES]; 3];
     let mut within = [[0; LANES]; 4];
     let (mut rises, mut falls, mut walks) = ([0; LANES], [0; LANES], [0; LANES]);
-    let mut outcome = [Hit::Sky; LANES];
+    let mut outcome = [Hit::Sky as i32; LANES];
     let still = eye.minus(eye);
     let mut longest = [still.x, still.z];
     for lane in 0..LANES {
@@ -155,7 +158,7 @@ fn start<W: Packed, S: Simd>(
         match if stepper.from_eye { Entry::Met } else { line.entry[i] } {
             Entry::Sky => continue,
             Entry::Far => {
-                outcome[lane] = stepper.beyond;
+                outcome[lane] = stepper.beyond as i32;
                 continue;
             }
             Entry::Met => {}
@@ -172,7 +175,7 @@ fn start<W: Packed, S: Simd>(
             continue;
         }
         if stepper.last == 0 {
-            outcome[lane] = Hit::Far;
+            outcome[lane] = Hit::Far as i32;
             continue;
         }
         let first = first.plus(ahead);
@@ -208,7 +211,7 @@ fn start<W: Packed, S: Simd>(
         near: mask([0; LANES]),
         more: number(0),
         hits: mask([0; LANES]),
-        outcome,
+        outcome: i32x16::simd_from(simd, outcome),
         within: within.map(|cells| i32x16::simd_from(simd, cells)),
         rises: mask(rises),
         falls: mask(falls),
@@ -274,7 +277,7 @@ pub fn end_walks<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S
             let last = place::<W>(x[lane], y[lane], z[lane]);
             let step = place::<W>(dx[lane], dy[lane], dz[lane]);
             let over = stepper.is_over(last, stepper.heading(step));
-            rays.outcome[lane] = if over { Hit::Sky } else { Hit::Far };
+            rays.outcome[lane] = if over { Hit::Sky } else { Hit::Far } as i32;
         }
     }
     let [x, y, z] = rays.place;
@@ -299,7 +302,7 @@ pub fn place<W: Packed>(x: W::Int, y: W::Int, z: W::Int) -> Place<W> {
 #[inline(always)]
 fn finish<W: Packed, S: Simd>(rays: &Rays<W, S>, lines: &mut [Line<W>], shape: Shape, from: usize) {
     let [x, _, z] = rays.place.map(Words::store);
-    let index = rays.index.to_array();
+    let (index, outcome) = (rays.index.to_array(), rays.outcome.to_array());
     for lane in 0..LANES {
         let (row, column) = shape.pixel(lane);
         let i = from + column;
@@ -307,7 +310,7 @@ fn finish<W: Packed, S: Simd>(rays: &Rays<W, S>, lines: &mut [Line<W>], shape: S
             continue;
         }
         let line = &mut lines[row];
-        line.hit[i] = rays.outcome[lane];
+        line.hit[i] = OUTCOMES[outcome[lane] as usize & 3];
         line.steps[i] = index[lane];
         line.work[i] = Work::default();
         line.ground_x[i] = W::Ground::of_int(x[lane]);

@@ -1,52 +1,101 @@
 //! Halvings of the last step of every ray that has hit, all rays of a packet at once.
 
 use fearless_simd::prelude::*;
-use fearless_simd::u32x16;
+use fearless_simd::{i32x16, mask32x16, u32x16};
 
-use super::heights::{heights, nodes};
-use super::march::{Land, Rays, place};
-use super::words::{LANES, Packed, Words};
+use super::heights::{Nodes, heights, nodes};
+use super::march::{Land, Rays};
+use super::words::{Packed, Words};
 use crate::frame::Hit;
-use crate::word::{Cell as _, Lane as _};
+use crate::unit::stepper::HalvingRule;
+use crate::word::Lane as _;
 
 /// Moves rays that hit from their first sample under the surface to the place of the hit.
 #[inline(always)]
 pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
-    let (stepper, memory) = (land.stepper, &*land.surface.heights);
     if !rays.hits.any_true() {
         return;
     }
-    let [x, y, z] = rays.place.map(Words::store);
-    let mut times = [0; LANES];
-    for lane in (0..LANES).filter(|&lane| rays.hits.test(lane)) {
-        times[lane] = stepper.halvings_at(place(x[lane], y[lane], z[lane]));
-    }
-    let most = times.iter().fold(0, |most, &t| most.max(t));
-    let halvings = u32x16::simd_from(land.simd, times);
-    for (place, step) in rays.place.iter_mut().zip(rays.step) {
-        *place = *place - step;
-    }
+    let number = |number: i32| i32x16::simd_from(land.simd, number);
+    let hits = rays.hits;
+    let (times, most) = halvings(land, rays);
+    let times = hits.select(times, times - times);
+    // Most of these steps lie in one cell, that of the sample.
+    let mut known = Known::new(land, rays.place[0].cell(), rays.place[2].cell());
+    let step = rays.step;
+    let mut clear: [_; 3] = std::array::from_fn(|axis| rays.place[axis] - step[axis]);
+    let mut before = Known::new(land, clear[0].cell(), clear[2].cell());
     for halving in 1..=most {
-        let middle: [_; 3] =
-            std::array::from_fn(|axis| rays.place[axis] + rays.step[axis].halved(halving));
+        let middle: [_; 3] = std::array::from_fn(|axis| clear[axis] + step[axis].halved(halving));
         let [x, y, z] = middle;
-        let nodes = nodes(land, x.cell(), z.cell());
-        let under = y.less(heights(land, &nodes, x, z)) & land.inside(x.cell(), z.cell());
-        let moves = halvings.simd_ge(halving) & !under;
-        for (place, middle) in rays.place.iter_mut().zip(middle) {
-            *place = W::Words::select(moves, middle, *place);
+        let (i, j) = (x.cell(), z.cell());
+        let (after, first) = (known.holds(i, j), before.holds(i, j));
+        if (hits & !(after | first)).any_true() {
+            known = Known::new(land, i, j);
+        }
+        let after = known.holds(i, j);
+        let nodes = std::array::from_fn(|at| {
+            W::Words::select(after, known.nodes[at], before.nodes[at])
+        });
+        let under = y.less(heights(land, &nodes, x, z)) & land.inside(i, j);
+        let moves = times.simd_ge(halving) & !under;
+        for (clear, middle) in clear.iter_mut().zip(middle) {
+            *clear = W::Words::select(moves, middle, *clear);
         }
     }
-    let [mut x, y, mut z] = rays.place.map(Words::store);
-    let [dx, dy, dz] = rays.step.map(Words::store);
-    for lane in (0..LANES).filter(|&lane| rays.hits.test(lane)) {
-        let clear = place::<W>(x[lane], y[lane], z[lane]);
-        let step = place::<W>(dx[lane], dy[lane], dz[lane]);
-        let meets = memory.contains(clear.x.cell(), clear.z.cell());
-        let place = clear.plus(step.halved(times[lane] + u32::from(meets)));
-        rays.outcome[lane] = if meets { Hit::Surface } else { stepper.beside(place, step) };
-        (x[lane], z[lane]) = (place.x.int(), place.z.int());
+    let meets = land.inside(clear[0].cell(), clear[2].cell());
+    // The middle of the last interval halves the error for one more addition.
+    let times = times + meets.select(number(1), number(0)).bitcast::<u32x16<S>>();
+    for (axis, clear) in clear.into_iter().enumerate() {
+        let place = clear + step[axis].halved_each(times);
+        rays.place[axis] = W::Words::select(hits, place, rays.place[axis]);
     }
-    rays.place[0] = W::Words::load(land.simd, x);
-    rays.place[2] = W::Words::load(land.simd, z);
+    // As `Stepper::beside`: from beside the map a ray meets the side, down to the base.
+    let base = W::Words::splat(land.simd, land.stepper.base.int());
+    let still = step[1] - step[1];
+    let fallen = rays.place[1].less(base) & !still.less(step[1]);
+    let beside = fallen.select(number(Hit::Sky as i32), number(Hit::Side as i32));
+    rays.outcome = hits.select(meets.select(number(Hit::Surface as i32), beside), rays.outcome);
+}
+
+/// Halvings of each ray, and the most of all: `Stepper::halvings_at`.
+#[inline(always)]
+fn halvings<W: Packed, S: Simd>(
+    land: &Land<'_, W, S>,
+    rays: &Rays<W, S>,
+) -> (u32x16<S>, u32) {
+    match land.stepper.halvings {
+        HalvingRule::Fixed(times) => (u32x16::simd_from(land.simd, times), times),
+        HalvingRule::Footprint { bias, cap } => {
+            let eye = land.stepper.eye();
+            let eye = [eye.x.int(), eye.y.int(), eye.z.int()];
+            let away: [_; 3] = std::array::from_fn(|axis| {
+                rays.place[axis] - W::Words::splat(land.simd, eye[axis])
+            });
+            let leading = W::Words::leading_one(away);
+            let times = (bias - leading).max(0).min(cap as i32);
+            let of_hits = rays.hits.select(times, times - times).to_array();
+            (times.bitcast(), of_hits.into_iter().fold(0, i32::max) as u32)
+        }
+    }
+}
+
+/// Nodes of a cell per ray.
+struct Known<W: Packed, S: Simd> {
+    i: i32x16<S>,
+    j: i32x16<S>,
+    nodes: Nodes<W, S>,
+}
+
+impl<W: Packed, S: Simd> Known<W, S> {
+    #[inline(always)]
+    fn new(land: &Land<'_, W, S>, i: i32x16<S>, j: i32x16<S>) -> Self {
+        Self { i, j, nodes: nodes(land, i, j) }
+    }
+
+    /// Where these are the cells.
+    #[inline(always)]
+    fn holds(&self, i: i32x16<S>, j: i32x16<S>) -> mask32x16<S> {
+        self.i.simd_eq(i) & self.j.simd_eq(j)
+    }
 }

@@ -63,8 +63,12 @@ pub trait Words<S: Simd>: Copy + Add<Output = Self> + Sub<Output = Self> {
     fn after(self, step: Self, k: u32x16<S>) -> Self;
     /// Shifted right, rounded down.
     fn halved(self, times: u32) -> Self;
+    /// The same, so many times per lane.
+    fn halved_each(self, times: u32x16<S>) -> Self;
     /// Floor.
     fn cell(self) -> i32x16<S>;
+    /// Place of the leading one of the largest of three magnitudes, as `Word::leading_one`.
+    fn leading_one(of: [Self; 3]) -> i32x16<S>;
     /// Bits behind the point.
     fn fraction(self) -> i32x16<S>;
     /// The bits shifted right, rounded down, within 32 bits.
@@ -115,8 +119,20 @@ impl<S: Simd> Words<S> for i32x16<S> {
         self >> times.min(31)
     }
     #[inline(always)]
+    fn halved_each(self, times: u32x16<S>) -> Self {
+        self >> times.min(31).bitcast::<Self>()
+    }
+    #[inline(always)]
     fn cell(self) -> i32x16<S> {
         self >> Self::POINT
+    }
+    #[inline(always)]
+    fn leading_one(of: [Self; 3]) -> i32x16<S> {
+        // The leading one of all bits together is that of the largest magnitude.
+        let [x, y, z] = of.map(|words| words.max(-words));
+        let bits = (x | y | z).to_array();
+        let leading = |lane: usize| 31 - Self::POINT as i32 - bits[lane].leading_zeros() as i32;
+        Self::simd_from(x.token(), std::array::from_fn(leading))
     }
     #[inline(always)]
     fn fraction(self) -> i32x16<S> {
@@ -222,8 +238,21 @@ impl<S: Simd> Words<S> for Pair<S> {
         self.each(|words| words >> times.min(63))
     }
     #[inline(always)]
+    fn halved_each(self, times: u32x16<S>) -> Self {
+        let (low, high) = times.min(63).widen();
+        Self(self.0 >> low.bitcast::<i64x8<S>>(), self.1 >> high.bitcast::<i64x8<S>>())
+    }
+    #[inline(always)]
     fn cell(self) -> i32x16<S> {
         (self.0 >> Self::POINT).narrow(self.1 >> Self::POINT)
+    }
+    #[inline(always)]
+    fn leading_one(of: [Self; 3]) -> i32x16<S> {
+        let simd = of[0].0.token();
+        let [x, y, z] = of.map(|words| words.each(|words| words.max(-words)));
+        let bits = Self(x.0 | y.0 | z.0, x.1 | y.1 | z.1).store();
+        let leading = |lane: usize| 63 - Self::POINT as i32 - bits[lane].leading_zeros() as i32;
+        i32x16::simd_from(simd, std::array::from_fn(leading))
     }
     #[inline(always)]
     fn fraction(self) -> i32x16<S> {

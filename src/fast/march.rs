@@ -206,7 +206,7 @@ fn start<W: Packed, S: Simd>(
         place: place.map(|words| W::Words::load(simd, words)),
         step: step.map(|words| W::Words::load(simd, words)),
         index: number(1),
-        level: number(0),
+        level: number(4).min(land.maxima.top()),
         walks: mask(walks),
         near: mask([0; LANES]),
         more: number(0),

@@ -20,6 +20,7 @@ mod camera;
 pub mod error;
 mod field;
 pub mod file;
+mod fractal;
 pub mod height_map;
 mod keys;
 pub mod screen;

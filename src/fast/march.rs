@@ -31,7 +31,7 @@ struct Lanes<W: World> {
     within: [[i32; LANES]; 4],
     /// The ray does not fall.
     rises: Flags,
-    /// The ray does not rise, and the map has a base.
+    /// The ray does not rise, and the map has sides.
     falls: Flags,
     index: [u32; LANES],
     level: [u32; LANES],
@@ -105,7 +105,7 @@ impl<W: World> Lanes<W> {
             all[lane] = one;
         }
         self.rises[lane] = u32::from(heading.rises);
-        self.falls[lane] = u32::from(heading.falls && extent.is_some());
+        self.falls[lane] = u32::from(heading.falls);
     }
 
     #[inline(always)]
@@ -282,7 +282,7 @@ fn sample<W: Interpolating>(
     }
     // Few lanes are this near to the surface at once: one by one is faster than all together.
     for lane in 0..LANES {
-        if near[lane] == 1 {
+        if near[lane] == 1 && !surface.is_hole(lanes.x[lane], lanes.z[lane]) {
             let site = lanes.site[lane].step(lanes.index[lane] << 3);
             if lanes.y[lane] < surface.height(lanes.x[lane], lanes.z[lane], site) {
                 (lanes.hits[lane], lanes.samples[lane], lanes.walks[lane]) = (1, 0, 0);
@@ -311,6 +311,7 @@ fn refine<W: Interpolating>(stepper: &Stepper<W>, surface: &Interpolator<W>, lan
         return;
     }
     let mut times = [0_u32; LANES];
+    let samples: [Place<W>; LANES] = std::array::from_fn(|lane| lanes.place(lane));
     for lane in 0..LANES {
         let hit = lanes.hits[lane] == 1;
         times[lane] = if hit { stepper.halvings_at(lanes.place(lane)) } else { 0 };
@@ -319,7 +320,6 @@ fn refine<W: Interpolating>(stepper: &Stepper<W>, surface: &Interpolator<W>, lan
         }
     }
     let most = times.iter().fold(0, |most, &t| most.max(t));
-    let memory = &*surface.heights;
     for halving in 1..=most {
         let mut x = lanes.x;
         let mut y = lanes.y;
@@ -332,7 +332,7 @@ fn refine<W: Interpolating>(stepper: &Stepper<W>, surface: &Interpolator<W>, lan
         }
         let surfaces = heights(surface, &x, &z, &sites);
         for lane in 0..LANES {
-            let inside = u32::from(memory.contains(x[lane].cell(), z[lane].cell()));
+            let inside = u32::from(surface.contains(x[lane], z[lane]));
             let under = inside & u32::from(y[lane] < surfaces[lane]);
             let moves = u32::from(halving <= times[lane]) & (under ^ 1) == 1;
             lanes.x[lane] = if moves { x[lane] } else { lanes.x[lane] };
@@ -345,10 +345,17 @@ fn refine<W: Interpolating>(stepper: &Stepper<W>, surface: &Interpolator<W>, lan
             continue;
         }
         let (clear, step) = (lanes.place(lane), lanes.step(lane));
-        let meets = memory.contains(clear.x.cell(), clear.z.cell());
-        let place = clear.plus(step.halved(times[lane] + u32::from(meets)));
-        lanes.outcome[lane] = if meets { Hit::Surface } else { stepper.beside(place, step) };
-        lanes.set(lane, place);
+        let middle = clear.plus(step.halved(times[lane] + 1));
+        if surface.contains(clear.x, clear.z) && surface.contains(middle.x, middle.z) {
+            lanes.outcome[lane] = Hit::Surface;
+            lanes.set(lane, middle);
+        } else {
+            // At sides, which are few, the stepper itself.
+            let (site, index) = (lanes.site[lane], lanes.index[lane]);
+            let walk = stepper.refine(samples[lane], step, surface, site, index, Work::default());
+            lanes.outcome[lane] = walk.hit;
+            lanes.set(lane, walk.place);
+        }
     }
 }
 

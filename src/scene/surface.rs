@@ -9,6 +9,7 @@ use super::error::{SceneError, nearest};
 use super::field::{FARTHEST, Field, Fields, is_length};
 use super::height_map::MapError;
 use super::keys::{self, Keys};
+use super::nodata::apply;
 use super::tree::shown;
 use super::{HeightMap, NoData, Outside, Plane, Surface, Terrain, builtin};
 
@@ -104,6 +105,7 @@ fn terrain(table: &Fields<'_>, folder: &Path) -> Result<Surface, SceneError> {
         }
         None => table.error("map", error.reason, error.remedy),
     })?;
+    let map = apply(map, nodata);
     let cell = cell.unwrap_or_else(|| default_cell(&source, &map));
     let terrain = Terrain { source, map, cell, offset, scale, outside, nodata, base_depth };
     check_extent(table, &terrain)?;

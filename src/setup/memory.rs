@@ -53,7 +53,7 @@ impl<W: Open> Memory<W> {
         else {
             return Ok(None);
         };
-        let heights = heights(world, terrain, walk)?;
+        let heights = heights(world, terrain, walk, plan.fitted.void_bits)?;
         let form = form(&scene.kernel, plan);
         let radius = i32::from(form == Form::Stretch);
         let pyramid = plan.fitted.pyramid.then(|| Arc::new(Pyramid::new(&heights, radius)));
@@ -85,6 +85,7 @@ fn heights<W: Open>(
     world: &W,
     terrain: &Terrain,
     walk: &WalkPlan,
+    void_bits: bool,
 ) -> Result<HeightMemory<W::Height>, super::SetupError> {
     let format = world.height(Register::Node);
     let nodes = terrain
@@ -92,7 +93,9 @@ fn heights<W: Open>(
         .samples()
         .par_iter()
         .map(|&sample| {
-            let height = walk.scale.to_register(terrain.height(sample));
+            // Nodes without data are as low as the lowest, so that no bound is raised by them.
+            let height =
+                if sample.is_nan() { 0.0 } else { walk.scale.to_register(terrain.height(sample)) };
             load(height, Register::Node, format)
         })
         .collect::<Result<Vec<_>, _>>()?;
@@ -102,7 +105,12 @@ fn heights<W: Open>(
         Outside::Clamp => Edge::Clamps,
         Outside::Wrap => Edge::Wraps,
     };
-    Ok(HeightMemory::new(nodes, columns, rows, edge))
+    let memory = HeightMemory::new(nodes, columns, rows, edge);
+    Ok(if void_bits {
+        memory.with_voids(terrain.map.samples().iter().map(|sample| sample.is_nan()).collect())
+    } else {
+        memory
+    })
 }
 
 /// The smallest form that gives the kernel's bits; the full machine's form where all is fitted.

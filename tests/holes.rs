@@ -190,8 +190,9 @@ fn errors_near_holes_are_those_of_any_ground() {
         3.0 * (x.sin() + z.cos())
     };
     for (shape, deformation) in KERNELS {
-        let void =
-            |i: usize, j: usize| (i / 5 * 3 + j / 4 * 5) % 7 == 0 || (i * 31 + j * 17) % 83 == 0;
+        let void = |i: usize, j: usize| {
+            (i / 5 * 3 + j / 4 * 5).is_multiple_of(7) || (i * 31 + j * 17).is_multiple_of(83)
+        };
         let mut scene =
             over(map(60, 50, |i, j| if void(i, j) { f32::NAN } else { hills(i, j) }), 400, 300);
         scene.kernel = Kernel { shape, deformation, table: 4096 };

@@ -29,7 +29,7 @@ fn hills() -> Scene {
 
 /// A map with a few nodes without data.
 fn holed(height: impl Fn(usize, usize) -> f32) -> HeightMap {
-    map(23, 17, |i, j| if (i + 5 * j) % 31 == 0 { f32::NAN } else { height(i, j) })
+    map(23, 17, |i, j| if (i + 5 * j).is_multiple_of(31) { f32::NAN } else { height(i, j) })
 }
 
 fn kernel(shape: KernelShape, deformation: Deformation) -> Kernel {

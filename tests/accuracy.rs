@@ -124,7 +124,7 @@ fn every_kernel_keeps_its_bounds() {
 #[test]
 fn random_scenes_keep_their_bounds() {
     let all = std::sync::Mutex::new(Vec::<PixelError>::new());
-    let result = runner(150).run(&recipes(), |mut recipe| {
+    let result = runner(220).run(&recipes(), |mut recipe| {
         // The machine's own refinement, with steps that lose few ridges, and slopes that do not
         // turn a small error along the ray into a large one across it.
         recipe.halvings = Halvings::Footprint;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use image::{GrayImage, ImageBuffer, ImageFormat, Luma, RgbImage};
 use proptest::prelude::*;
-use terraline::scene::HeightMap;
+use terraline::scene::{HeightMap, builtin};
 
 /// A chunk of a PNG file.
 fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
@@ -164,8 +164,31 @@ fn the_jacksboro_map_is_the_one_it_should_be() {
     let map = HeightMap::read(Path::new("assets/jacksboro.png")).unwrap();
     assert_eq!((map.columns(), map.rows()), (344, 344));
     assert_eq!(map.sample(232, 168), 316.0);
-    assert_eq!(terraline::scene::builtin::map("jacksboro").unwrap().unwrap().as_ref(), &map);
-    assert!(terraline::scene::builtin::map("atlantis").is_none());
+    assert_eq!(builtin::map("jacksboro").unwrap().unwrap().as_ref(), &map);
+    assert!(builtin::map("atlantis").is_none());
+}
+
+#[test]
+fn built_in_maps_come_at_any_resolution() {
+    let map = |name: &str| builtin::map(name).expect("a name that is known");
+    assert_eq!(map("jacksboro@344").unwrap(), map("jacksboro").unwrap());
+    for side in [2, 256, 1000] {
+        let map = map(&format!("jacksboro@{side}")).unwrap();
+        assert_eq!((map.columns(), map.rows()), (side, side));
+    }
+    for (nodes, words) in [
+        ("", ["`` is not a number", "from 2 to 8192"]),
+        ("4k", ["`4k` is not a number", "builtin:jacksboro@4096"]),
+        ("-5", ["`-5` is not a number", "from 2 to 8192"]),
+        ("12@3", ["`12@3` is not a number", "from 2 to 8192"]),
+        ("1", ["1 nodes a side", "from 2 to 8192"]),
+        ("8193", ["8193 nodes a side are too many", "from 2 to 8192"]),
+        ("99999999999999999999999", ["too many", "from 2 to 8192"]),
+    ] {
+        let error = map(&format!("jacksboro@{nodes}")).unwrap_err().to_string();
+        assert_says(&error, &["builtin:jacksboro@", words[0], words[1]]);
+    }
+    assert!(builtin::map("atlantis@5").is_none());
 }
 
 proptest! {

@@ -10,7 +10,7 @@ use terraline::frame::Hit;
 use terraline::plan::Plan;
 use terraline::plan::units::{UnitPlan, units};
 use terraline::scene::{
-    Angles, Attitude, Deformation, Kernel, KernelShape, Scene, StepperMode, WordSize,
+    Angles, Attitude, Deformation, HeightMap, Kernel, KernelShape, Scene, StepperMode, WordSize,
 };
 use terraline::study::cost::{Cost, Measure};
 use terraline::study::error::Sample;
@@ -27,6 +27,11 @@ fn hills() -> Scene {
     over(map(23, 17, |i, j| ((i * 7 + j * 13) % 19) as f32 / 4.0), 40, 30)
 }
 
+/// A map with a few nodes without data.
+fn holed(height: impl Fn(usize, usize) -> f32) -> HeightMap {
+    map(23, 17, |i, j| if (i + 5 * j).is_multiple_of(31) { f32::NAN } else { height(i, j) })
+}
+
 fn kernel(shape: KernelShape, deformation: Deformation) -> Kernel {
     Kernel { shape, deformation, table: 4096 }
 }
@@ -37,7 +42,18 @@ fn changed(change: impl Fn(&mut Scene)) -> Scene {
     scene
 }
 
+/// All cases; the maps of most have no holes.
 fn cases() -> Vec<Case> {
+    let mut cases = own_cases();
+    for case in &mut cases {
+        if !matches!(case.name, "plane" | "holes" | "holes in a constant map, stretched") {
+            case.left_out.push(("void_bits", "every node has data"));
+        }
+    }
+    cases
+}
+
+fn own_cases() -> Vec<Case> {
     let inside = |scene: &mut Scene| {
         let ground = support::ground_under(scene, 8.3, 6.1).expect("on the map");
         scene.camera.position = DVec3::new(8.3, ground + 0.2, 6.1);
@@ -110,6 +126,20 @@ fn cases() -> Vec<Case> {
                 scene
             },
             left_out: vec![("kernel_rom", "one height"), square],
+        },
+        Case {
+            name: "holes",
+            scene: over(holed(|i, j| ((i * 7 + j * 13) % 19) as f32 / 4.0), 40, 30),
+            left_out: vec![square],
+        },
+        Case {
+            name: "holes in a constant map, stretched",
+            scene: {
+                let mut scene = over(holed(|_, _| 2.5), 40, 30);
+                scene.kernel = kernel(KernelShape::Cosine, Deformation::Stretch);
+                scene
+            },
+            left_out: vec![square],
         },
         Case {
             name: "ambient light alone",

@@ -296,3 +296,15 @@ fn byte_order_mark_and_line_ends_of_windows() {
         &["line 3, column 1: camera.rol"],
     );
 }
+
+#[test]
+fn resampled_built_in_maps_keep_their_ground() {
+    let at = |sets: &[&str]| terrain(&scene("", sets)).clone();
+    let fine = at(&["surface.map=builtin:jacksboro@687"]);
+    assert_eq!((fine.map.columns(), fine.cell), (687, DVec2::splat(0.5)));
+    let given = at(&["surface.map=builtin:jacksboro@687", "surface.cell=[2, 3]"]);
+    assert_eq!(given.cell, DVec2::new(2.0, 3.0));
+    assert_eq!(at(&[]).cell, DVec2::ONE);
+    let error = try_scene("[[surface]]\nmap = \"builtin:jacksboro@1\"", &[]).unwrap_err();
+    assert_says(&error, &["line 2", "surface.map", "from 2 to 8192"]);
+}

@@ -67,6 +67,9 @@ fn text(scene: &str, world: &str, e: &Explanation) -> String {
     if let Some(why) = e.turned_away {
         out.push(format!("the ray ends at the divider: {why}"));
     }
+    if let Some(hole) = e.hole {
+        out.push(format!("hole: {hole}"));
+    }
     out.join("\n")
 }
 

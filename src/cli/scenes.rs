@@ -4,7 +4,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{Stop, report};
-use crate::scene::builtin::{SCENES, find, unknown};
+use crate::scene::builtin::{MAPS, MOST_NODES, SCENES, find, unknown};
 
 /// List the built-in scenes, or print one's TOML to start from.
 #[derive(Debug, Args)]
@@ -23,6 +23,20 @@ pub struct Scenes {
 #[derive(Serialize)]
 struct Listing {
     scenes: Vec<Listed>,
+    maps: Vec<ListedMap>,
+}
+
+#[derive(Serialize)]
+struct ListedMap {
+    name: &'static str,
+    description: String,
+}
+
+fn maps_description() -> String {
+    format!(
+        "the height map of the first three scenes; with @N behind its name it has N x N nodes \
+         (2 to {MOST_NODES}) over the same ground, with fractal detail"
+    )
 }
 
 #[derive(Serialize)]
@@ -41,12 +55,14 @@ impl Scenes {
                     .iter()
                     .map(|s| Listed { name: s.name, description: s.description, toml: None })
                     .collect();
-                return report::json("scenes", None, &Listing { scenes });
+                let maps = vec![ListedMap { name: MAPS[0], description: maps_description() }];
+                return report::json("scenes", None, &Listing { scenes, maps });
             }
             let widest = SCENES.iter().map(|s| s.name.len()).max().unwrap_or(0);
             for scene in &SCENES {
                 report::print(&format!("{:widest$}  {}", scene.name, scene.description));
             }
+            report::print(&format!("\nbuiltin:{}  {}", MAPS[0], maps_description()));
             return Ok(());
         };
         let scene = find(name).ok_or_else(|| unknown(name))?;

@@ -4,7 +4,7 @@ use fearless_simd::i32x16;
 use fearless_simd::prelude::*;
 
 use super::march::Land;
-use super::words::{LANES, Packed, Words};
+use super::words::{Packed, Words};
 use crate::unit::interpolator::Form;
 use crate::unit::stepper::SurfaceUnit;
 use crate::word::{Lane as _, Site};

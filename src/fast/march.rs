@@ -17,7 +17,6 @@ use super::{refine, solve};
 use crate::frame::Hit;
 use crate::setup::TerrainUnits;
 use crate::unit::Line;
-use crate::unit::height_memory::Edge;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::line::{Entry, Work};
 use crate::unit::stepper::{Place, Stepper};
@@ -36,16 +35,15 @@ pub struct Land<'a, W: World, S> {
 }
 
 impl<W: World, S: Simd> Land<'_, W, S> {
-    /// Where the map has a surface in cell (i, j).
+    /// Where there is a surface in cell (i, j).
     #[inline(always)]
     pub fn inside(&self, i: i32x16<S>, j: i32x16<S>) -> mask32x16<S> {
-        let memory = &*self.surface.heights;
-        let within = |at: i32x16<S>, nodes: i32| {
-            at.bitcast::<u32x16<S>>().simd_lt((nodes - 1) as u32)
-        };
-        match memory.edge() {
-            Edge::Ends => within(i, memory.columns()) & within(j, memory.rows()),
-            Edge::Clamps | Edge::Wraps => mask32x16::simd_from(self.simd, true),
+        let finest = u32x16::simd_from(self.simd, 0);
+        let (addresses, held) = self.maxima.addresses(finest, i, j);
+        if self.surface.heights.has_voids() {
+            held & self.maxima.bounds(addresses).simd_ne(i32::from(NOTHING))
+        } else {
+            held
         }
     }
 }
@@ -194,7 +192,7 @@ fn start<W: Packed, S: Simd>(
         within[2][lane] = bound(heading.north, 0, i32::MIN);
         within[3][lane] = bound(heading.south, rows - 2, i32::MAX);
         rises[lane] = -i32::from(heading.rises);
-        falls[lane] = -i32::from(heading.falls && ends.is_some());
+        falls[lane] = -i32::from(heading.falls);
         walks[lane] = -1;
         let (x, z) = (ahead.x.magnitude(), ahead.z.magnitude());
         longest[0] = if x > longest[0] { x } else { longest[0] };

@@ -19,7 +19,8 @@ pub struct Maxima {
     stride: i32,
     /// Cells in x and z.
     cells: (i32, i32),
-    /// First power of two that holds the cells in z: level m starts at row 2·rows − (2·rows >> m).
+    /// First power of two that holds the cells in z: level m starts at row
+    /// 2·rows − (2·rows >> m) + m, which leaves each level a row at least.
     rows: i32,
     top: u32,
     ends: bool,
@@ -42,8 +43,17 @@ pub struct Bend {
 /// Bound of a cell that has no surface.
 pub const NOTHING: i16 = i16::MIN;
 
+/// More levels than any map has.
+const LEVELS: u32 = 28;
+
+/// Row of a level's first block.
+fn first_row(rows: usize, level: u32) -> usize {
+    2 * rows - (2 * rows >> level) + level as usize
+}
+
 impl Maxima {
     /// The maxima of a map whose heights are given in coarse steps of 2^places bits, rounded up.
+    /// Cells that touch a node without data have no surface.
     pub fn new(heights: &HeightMemory<i16>, radius: i32, places: u32, bend: Bend) -> Self {
         let ends = heights.edge() == Edge::Ends;
         let cells = (heights.columns() - i32::from(ends), heights.rows() - i32::from(ends));
@@ -51,11 +61,18 @@ impl Maxima {
         let stride = heights.columns() as usize;
         let rows = (cells.1 as u32).next_power_of_two() as usize;
         let mut bounds = cell_maxima(heights, radius);
-        bounds.resize(2 * rows * stride, NOTHING);
+        if heights.has_voids() {
+            for (at, bound) in (0..).zip(&mut bounds) {
+                if heights.any_void(at % heights.columns(), at / heights.columns(), 2) {
+                    *bound = NOTHING;
+                }
+            }
+        }
+        bounds.resize(first_row(rows, LEVELS) * stride, NOTHING);
         let (mut width, mut height) = (cells.0 as usize, cells.1 as usize);
         let (mut level, mut from) = (0, 0);
         while width > 1 || height > 1 {
-            let to = 2 * rows - (2 * rows >> (level + 1));
+            let to = first_row(rows, level + 1);
             let (finer, coarser) = bounds.split_at_mut(to * stride);
             halve_into(&finer[from * stride..], stride, (width, height), coarser);
             (width, height) = (width.div_ceil(2), height.div_ceil(2));
@@ -107,7 +124,7 @@ impl Maxima {
             at.bitcast::<u32x16<S>>().simd_le(last.bitcast::<u32x16<S>>())
         };
         let held = within(i, block(last_i)) & within(j, block(last_j));
-        let first_row = 2 * self.rows - block(2 * self.rows);
+        let first_row = 2 * self.rows - block(2 * self.rows) + places;
         let address = (first_row + j) * self.stride + i;
         (held.select(address, address - address).bitcast(), held)
     }

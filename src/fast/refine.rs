@@ -23,8 +23,10 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
     // Most of these steps lie in one cell, that of the sample.
     let mut known = Known::new(land, rays.place[0].cell(), rays.place[2].cell());
     let step = rays.step;
+    // The last place found clear, and the last one found under the surface.
     let mut clear: [_; 3] = std::array::from_fn(|axis| rays.place[axis] - step[axis]);
-    let mut before = Known::new(land, clear[0].cell(), clear[2].cell());
+    let mut met = rays.place;
+    let before = Known::new(land, clear[0].cell(), clear[2].cell());
     for halving in 1..=most {
         let middle: [_; 3] = std::array::from_fn(|axis| clear[axis] + step[axis].halved(halving));
         let [x, y, z] = middle;
@@ -38,19 +40,23 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
             W::Words::select(after, known.nodes[at], before.nodes[at])
         });
         let under = y.less(heights(land, &nodes, x, z)) & land.inside(i, j);
-        let moves = times.simd_ge(halving) & !under;
-        for (clear, middle) in clear.iter_mut().zip(middle) {
-            *clear = W::Words::select(moves, middle, *clear);
+        let halves = times.simd_ge(halving);
+        for axis in 0..3 {
+            clear[axis] = W::Words::select(halves & !under, middle[axis], clear[axis]);
+            met[axis] = W::Words::select(halves & under, middle[axis], met[axis]);
         }
     }
     let meets = land.inside(clear[0].cell(), clear[2].cell());
     // The middle of the last interval halves the error for one more addition.
-    let times = times + meets.select(number(1), number(0)).bitcast::<u32x16<S>>();
-    for (axis, clear) in clear.into_iter().enumerate() {
-        let place = clear + step[axis].halved_each(times);
+    let middle: [_; 3] =
+        std::array::from_fn(|axis| clear[axis] + step[axis].halved_each(times + 1));
+    let in_between = meets & land.inside(middle[0].cell(), middle[2].cell());
+    for axis in 0..3 {
+        let place = W::Words::select(in_between, middle[axis], met[axis]);
         rays.place[axis] = W::Words::select(hits, place, rays.place[axis]);
     }
-    // As `Stepper::beside`: from beside the map a ray meets the side, down to the base.
+    // As `Stepper::beside`: from beside the map or out of a hole a ray meets the side, down to the
+    // base.
     let base = W::Words::splat(land.simd, land.stepper.base.int());
     let still = step[1] - step[1];
     let fallen = rays.place[1].less(base) & !still.less(step[1]);

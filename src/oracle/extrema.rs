@@ -81,6 +81,8 @@ struct Level {
     rows: usize,
     /// Lowest and highest surface height in scene units, row by row.
     ranges: Vec<(f64, f64)>,
+    /// Whether some patch touches a node without data, row by row.
+    holes: Vec<bool>,
 }
 
 /// Bounds of the surface over blocks, coarse to fine.
@@ -98,6 +100,8 @@ pub struct Block {
     pub z: Span,
     /// Lowest and highest surface height, scene units.
     pub range: (f64, f64),
+    /// Whether it has holes.
+    pub holed: bool,
 }
 
 impl Extrema {
@@ -115,15 +119,18 @@ impl Extrema {
         for row in 0..finest.rows {
             for column in 0..finest.columns {
                 let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
+                let mut holed = false;
                 for j in touched(axes.1, row) {
                     for i in touched(axes.0, column) {
                         let sample = map.sample(i, j);
+                        // NaN, no data, is neither.
                         (low, high) = (low.min(sample), high.max(sample));
+                        holed |= sample.is_nan();
                     }
                 }
-                // A negative scale turns lowest into highest.
                 let (low, high) = (terrain.height(low), terrain.height(high));
-                finest.ranges.push((low.min(high), low.max(high)));
+                finest.ranges.push((low, high));
+                finest.holes.push(holed);
             }
         }
         let mut levels = vec![finest];
@@ -138,7 +145,9 @@ impl Extrema {
         self.levels.iter().map(move |level| {
             let (column, span_x) = axes.0.block(x, level.size);
             let (row, span_z) = axes.1.block(z, level.size);
-            Block { x: span_x, z: span_z, range: level.ranges[row * level.columns + column] }
+            let index = row * level.columns + column;
+            let (range, holed) = (level.ranges[index], level.holes[index]);
+            Block { x: span_x, z: span_z, range, holed }
         })
     }
 }
@@ -150,6 +159,7 @@ impl Level {
             columns: columns.div_ceil(size),
             rows: rows.div_ceil(size),
             ranges: Vec::new(),
+            holes: Vec::new(),
         }
     }
 
@@ -161,10 +171,13 @@ impl Level {
         let size = usize::try_from(self.size).ok()? * FACTOR;
         let mut level = Self::empty(size, columns, rows);
         level.ranges = vec![(f64::INFINITY, f64::NEG_INFINITY); level.columns * level.rows];
+        level.holes = vec![false; level.ranges.len()];
         for (index, &(low, high)) in self.ranges.iter().enumerate() {
             let (row, column) = (index / self.columns, index % self.columns);
-            let range = &mut level.ranges[row / FACTOR * level.columns + column / FACTOR];
+            let at = row / FACTOR * level.columns + column / FACTOR;
+            let range = &mut level.ranges[at];
             *range = (range.0.min(low), range.1.max(high));
+            level.holes[at] |= self.holes[index];
         }
         Some(level)
     }

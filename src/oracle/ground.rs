@@ -15,6 +15,7 @@ pub struct Ground {
     axes: (Axis, Axis),
     extrema: Extrema,
     range: (f64, f64),
+    holed: bool,
 }
 
 impl Ground {
@@ -32,6 +33,7 @@ impl Ground {
             axes,
             extrema: Extrema::new(terrain, stencil, axes),
             range: terrain.range(),
+            holed: terrain.map.voids() > 0,
         }
     }
 
@@ -45,6 +47,19 @@ impl Ground {
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
         self.range
+    }
+
+    /// Whether the map has holes.
+    #[must_use]
+    pub fn is_holed(&self) -> bool {
+        self.holed
+    }
+
+    /// Height down to which the sides of the map and of its holes are seen by a falling ray, scene
+    /// units.
+    #[must_use]
+    pub fn base(&self) -> f64 {
+        self.range.0 - self.terrain.base_depth()
     }
 
     /// The greatest slope the map could have, scene units per cell.
@@ -114,13 +129,17 @@ impl Ground {
             .height((px - index.0 as f64).clamp(0.0, 1.0), (pz - index.1 as f64).clamp(0.0, 1.0))
     }
 
-    /// The patch at (x, z), scene units; `None` outside the domain.
+    /// The patch at (x, z), scene units; `None` outside the domain and in a hole.
     #[must_use]
     pub fn index_at(&self, x: f64, z: f64) -> Option<(i64, i64)> {
         let (px, pz) = self.patch_coordinates(x, z);
         let [domain_x, domain_z] = self.domain();
         let holds = |p: f64, (from, to): (f64, f64)| p >= from && p < to;
-        (holds(px, domain_x) && holds(pz, domain_z)).then(|| self.patch_index(px, pz))
+        if !holds(px, domain_x) || !holds(pz, domain_z) {
+            return None;
+        }
+        let index = self.patch_index(px, pz);
+        (!self.holed || !self.patch(index).is_hole()).then_some(index)
     }
 
     /// Unit normal `(−∂y/∂x, 1, −∂y/∂z)` of a height, by the cell's size.

@@ -122,8 +122,8 @@ impl Oracle {
         self.view.project(point)
     }
 
-    /// Height of the surface over (x, z), scene units; `None` outside a map that ends, and on an
-    /// upright plane.
+    /// Height of the surface over (x, z), scene units; `None` outside a map that ends, in a hole, and
+    /// on an upright plane.
     #[must_use]
     pub fn surface_height(&self, x: f64, z: f64) -> Option<f64> {
         match &self.seen {
@@ -135,8 +135,8 @@ impl Oracle {
         }
     }
 
-    /// Unit normal `(−∂y/∂x, 1, −∂y/∂z)` over (x, z); `None` outside a map that ends. A plane has
-    /// its own normal everywhere.
+    /// Unit normal `(−∂y/∂x, 1, −∂y/∂z)` over (x, z); `None` outside a map that ends and in a
+    /// hole. A plane has its own normal everywhere.
     #[must_use]
     pub fn surface_normal(&self, x: f64, z: f64) -> Option<DVec3> {
         match &self.seen {

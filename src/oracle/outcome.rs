@@ -1,6 +1,7 @@
 //! What a ray meets on a terrain: surface, side of the map, sky, or nothing within reach.
 //!
-//! The solid is the set of points over the domain of the map with y < surface(x, z).
+//! The solid is the set of points over the domain of the map, but for its holes, with
+//! y < surface(x, z).
 
 use super::camera::Ray;
 use super::ground::Ground;
@@ -48,10 +49,11 @@ pub fn first_entry<'a>(ground: &'a Ground, ray: &Ray, reach_cells: f64) -> Outco
     let (start_x, start_z) = position(&track, from);
     let patch = ground.patch_index(start_x, start_z);
     let y = track.height(from);
-    if from > 0.0 && rise < 0.0 && y < low - ground.terrain().base_depth() {
+    let inside = is_inside(ground, &track, from);
+    if (from > 0.0 || !inside) && is_below_base(ground, y, rise) {
         return Outcome::miss(Hit::Sky, false);
     }
-    if is_inside(ground, &track, from) {
+    if inside {
         return Outcome {
             hit: if from > 0.0 { Hit::Side } else { Hit::Surface },
             lambda: from,
@@ -62,8 +64,8 @@ pub fn first_entry<'a>(ground: &'a Ground, ray: &Ray, reach_cells: f64) -> Outco
     }
 
     let top = track.reaches(1, high);
-    // Past every height that could be crossed, but with room for rounding.
-    let floor = track.reaches(1, low - 1.0 - (high - low));
+    // Past every height that could be crossed, but with room for rounding, and past the base.
+    let floor = track.reaches(1, (low - 1.0 - (high - low)).min(ground.base()));
     let (start, end) = if rise < 0.0 {
         (from.max(top), to.min(floor))
     } else if rise > 0.0 {
@@ -77,8 +79,12 @@ pub fn first_entry<'a>(ground: &'a Ground, ray: &Ray, reach_cells: f64) -> Outco
         let crossing = walk.next_crossing();
         tangent = walk.touches() > 0;
         if let Some(crossing) = crossing {
+            let hit = if crossing.side { Hit::Side } else { Hit::Surface };
+            if crossing.side && is_below_base(ground, track.height(crossing.lambda), rise) {
+                return Outcome::miss(Hit::Sky, tangent);
+            }
             return Outcome {
-                hit: Hit::Surface,
+                hit,
                 lambda: crossing.lambda,
                 patch: crossing.patch,
                 tangent,
@@ -87,8 +93,15 @@ pub fn first_entry<'a>(ground: &'a Ground, ray: &Ray, reach_cells: f64) -> Outco
         }
     }
     let rises_clear = if rise > 0.0 { top <= to } else { rise == 0.0 && y >= high };
-    let hit = if ends || rises_clear { Hit::Sky } else { Hit::Far };
+    let falls_clear = rise < 0.0 && track.reaches(1, ground.base()) <= to;
+    let hit = if ends || rises_clear || falls_clear { Hit::Sky } else { Hit::Far };
     Outcome::miss(hit, tangent)
+}
+
+/// Whether a ray out of the ground can meet no side any more: it is below the base and does not
+/// rise.
+fn is_below_base(ground: &Ground, y: f64, rise: f64) -> bool {
+    rise <= 0.0 && y < ground.base()
 }
 
 /// How often a ray goes into the solid or out of it between two λ: crossings of the surface,
@@ -162,11 +175,12 @@ fn position(track: &Track, lambda: f64) -> (f64, f64) {
     (px, pz)
 }
 
-/// Whether y < surface at λ.
+/// Whether y < surface at λ, where there is one.
 fn is_inside(ground: &Ground, track: &Track, lambda: f64) -> bool {
     let [px, y, pz] = track.at(lambda);
     let patch = ground.patch_index(px, pz);
     let local = |p: f64, index: i64| (p - index as f64).clamp(0.0, 1.0);
     let height = ground.patch(patch).height(local(px, patch.0), local(pz, patch.1));
+    // In a hole the height is NaN, and nothing is under it.
     y < height.y
 }

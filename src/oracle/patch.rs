@@ -43,6 +43,12 @@ impl Patch {
         Self { stencil, nodes }
     }
 
+    /// Whether one of its nodes has no data: there is no surface then.
+    #[must_use]
+    pub fn is_hole(&self) -> bool {
+        self.nodes.as_flattened().iter().any(|height| height.is_nan())
+    }
+
     /// Lowest and highest node: the surface lies between them, since no weight is negative.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {

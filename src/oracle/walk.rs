@@ -6,6 +6,9 @@
 //! root of `g + g′ δ − K δ²/2 = 0`. The walk advances by the longer of the two: it cannot jump
 //! over a crossing, and near a crossing it converges like Newton's method, from the front.
 //! Patches, and blocks of them, whose nodes the ray clears are passed over whole.
+//!
+//! Patches without data are holes, which a ray passes through. It crosses a side where it leaves
+//! a hole under the surface beside it, or leaves the ground into a hole.
 
 use super::camera::Ray;
 use super::extrema::Span;
@@ -79,6 +82,8 @@ pub struct Crossing {
     pub lambda: f64,
     /// In which patch.
     pub patch: (i64, i64),
+    /// It is a side of a hole that is crossed, not the surface.
+    pub side: bool,
 }
 
 /// A ray on its way over the ground.
@@ -89,7 +94,10 @@ pub struct Walk<'a> {
     lambda: f64,
     end: f64,
     patch: (i64, i64),
+    /// The ray is out of the ground.
     above: bool,
+    /// It has come into this patch out of a hole.
+    from_hole: bool,
     /// Gap below which rounding may hide the sign, scene units.
     tolerance: f64,
     /// The gap has been clearly open since the start or the last crossing.
@@ -120,6 +128,7 @@ impl<'a> Walk<'a> {
             end,
             patch: ground.patch_index(px, pz),
             above,
+            from_hole: false,
             tolerance: 8.0 * f64::EPSILON * (heights + place * ground.slope_bound()),
             open: false,
             closing: false,
@@ -157,6 +166,14 @@ impl<'a> Walk<'a> {
             let x = axes.0.patch_span(self.patch.0);
             let z = axes.1.patch_span(self.patch.1);
             let patch = self.ground.patch(self.patch);
+            if self.ground.is_holed() && patch.is_hole() {
+                if !self.above {
+                    return Some(self.come_out());
+                }
+                self.leave(x, z);
+                self.from_hole = true;
+                continue;
+            }
             if !self.clears(self.exit(x, z), patch.range()) {
                 let found = self.cross(&patch, self.exit(x, z));
                 if found.is_some() {
@@ -168,12 +185,24 @@ impl<'a> Walk<'a> {
         None
     }
 
+    /// From the ground into a hole.
+    fn come_out(&mut self) -> Crossing {
+        self.above = true;
+        (self.open, self.closing) = (false, false);
+        Crossing { lambda: self.lambda, patch: self.patch, side: true }
+    }
+
     /// Nothing more can be crossed: above everything and rising, or below and falling.
     fn is_clear_for_good(&self) -> bool {
         let (low, high) = self.ground.range();
         let y = self.track.height(self.lambda);
         let rise = self.track.step[1];
-        if self.above { y >= high && rise >= 0.0 } else { y < low && rise <= 0.0 }
+        if self.above {
+            y >= high && rise >= 0.0
+        } else {
+            // A ray in the ground may still come out into a hole.
+            y < low && rise <= 0.0 && !self.ground.is_holed()
+        }
     }
 
     /// λ at which the walk leaves a rectangle of patches, or ends.
@@ -192,6 +221,7 @@ impl<'a> Walk<'a> {
     fn clear_block(&self) -> Option<(Span, Span)> {
         self.ground
             .blocks(self.patch)
+            .filter(|block| self.above || !block.holed)
             .find(|block| self.clears(self.exit(block.x, block.z), block.range))
             .map(|block| (block.x, block.z))
     }
@@ -200,6 +230,7 @@ impl<'a> Walk<'a> {
     fn leave(&mut self, x: Span, z: Span) {
         let (exit_x, exit_z) = (self.track.leaves(0, x), self.track.leaves(2, z));
         let exit = exit_x.min(exit_z);
+        self.from_hole = false;
         if exit >= self.end {
             self.lambda = self.end;
             return;
@@ -243,7 +274,8 @@ impl<'a> Walk<'a> {
                 // How deep a crossing at this rate surely goes; less may be a contact from rounding.
                 let depth = (rate * rate / (2.0 * rates.bend)).max(gap.abs());
                 self.touches += usize::from(depth < self.tolerance);
-                return Some(self.turn(patch, before, lambda));
+                let side = advance == 0 && self.from_hole;
+                return Some(Crossing { side, ..self.turn(patch, before, lambda) });
             }
             self.watch(gap.abs());
             if lambda >= exit {
@@ -291,7 +323,7 @@ impl<'a> Walk<'a> {
         self.above = !self.above;
         self.open = false;
         self.closing = false;
-        Crossing { lambda: 0.5 * (before + behind), patch: self.patch }
+        Crossing { lambda: 0.5 * (before + behind), patch: self.patch, side: false }
     }
 }
 

@@ -155,6 +155,8 @@ pub struct Fitted {
     pub pyramid: bool,
     /// Kernel ROM, with the hat blend.
     pub kernel_rom: bool,
+    /// The bits that mark nodes without data.
+    pub void_bits: bool,
     /// Slope multipliers for cells that are not cubes of the height unit.
     pub slope_scale: bool,
     /// Normal and light.
@@ -206,6 +208,7 @@ impl Plan {
                     divider: true,
                     pyramid: false,
                     kernel_rom: false,
+                    void_bits: false,
                     slope_scale: false,
                     light: false,
                     idle: false,
@@ -219,6 +222,7 @@ impl Plan {
                 divider: true,
                 pyramid: terrain && scene.stepper.mode == StepperMode::Skipping,
                 kernel_rom: terrain,
+                void_bits: terrain,
                 slope_scale: terrain,
                 light: terrain,
                 idle: true,
@@ -263,14 +267,21 @@ pub(crate) fn kernel_is_hat(scene: &Scene, words: WordClass) -> bool {
     }
 }
 
+/// Whether the kernel shows: not on a constant map, but for the reach of its holes.
+pub(crate) fn needs_kernel(scene: &Scene, constant: bool, holes: bool) -> bool {
+    !constant || (holes && scene.kernel.deformation == Deformation::Stretch)
+}
+
 fn terrain_needs(scene: &Scene, terrain: &Terrain, walk: &WalkPlan) -> Fitted {
     let (lowest, highest) = terrain.range();
     let constant = lowest == highest;
     let unit = walk.scale.unit;
+    let void_bits = terrain.map.voids() > 0;
     Fitted {
         divider: !walk.from_eye,
         pyramid: scene.stepper.mode == StepperMode::Skipping,
-        kernel_rom: !constant && !kernel_is_hat(scene, walk.words),
+        kernel_rom: needs_kernel(scene, constant, void_bits) && !kernel_is_hat(scene, walk.words),
+        void_bits,
         slope_scale: !constant && (terrain.cell.x != unit || terrain.cell.y != unit),
         light: scene.light.ambient < 1.0,
         idle: false,

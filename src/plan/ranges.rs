@@ -175,7 +175,8 @@ impl WalkPlan {
             }
             Outside::Clamp | Outside::Wrap => {
                 let reach = (4.0 * nodes[0].max(nodes[1])).clamp(256.0, 4096.0);
-                (reach, (start_y.max(top) - base).max(0.0) + 2.0)
+                // An eye in a hole may be under the base.
+                (reach, (start_y.max(top) - base.min(start_y)).max(0.0) + 2.0)
             }
         };
         let walk = reach.max(deep).ceil();

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::{Ground, Plan, kernel_is_hat};
+use super::{Ground, Plan, kernel_is_hat, needs_kernel};
 use crate::scene::{Deformation, KernelShape, Scene, StepperMode, Surface};
 use crate::word::{Register, World};
 
@@ -120,12 +120,15 @@ impl<W: World> Describe<'_, W> {
         use Register as R;
         let (plan, fitted) = (self.plan, self.plan.fitted);
         let kernel = &self.scene.kernel;
-        let constant = match &self.scene.surface {
-            Surface::Terrain(terrain) => terrain.range().0 == terrain.range().1,
-            Surface::Plane(_) => false,
+        let (constant, voids) = match &self.scene.surface {
+            Surface::Terrain(terrain) => {
+                (terrain.range().0 == terrain.range().1, terrain.map.voids())
+            }
+            Surface::Plane(_) => (false, 0),
         };
+        let shows = needs_kernel(self.scene, constant, voids > 0);
         let hat = kernel_is_hat(self.scene, plan.words());
-        let kernel_why = if constant {
+        let kernel_why = if !shows {
             "every node has one height: any weights give it".to_owned()
         } else if kernel.shape == KernelShape::Hat && kernel.deformation != Deformation::Stretch {
             "the kernel is the hat, whose weight is the fraction itself".to_owned()
@@ -160,11 +163,23 @@ impl<W: World> Describe<'_, W> {
             ),
             self.unit(
                 "kernel_rom",
-                !constant && !hat,
+                shows && !hat,
                 fitted.kernel_rom,
                 kernel_why,
                 &[R::Weight, R::WeightSlope],
                 "the tables, two reads and the blend's additions per interpolation",
+            ),
+            self.unit(
+                "void_bits",
+                voids > 0,
+                fitted.void_bits,
+                match voids {
+                    0 => "every node has data: the map has no holes".into(),
+                    1 => "1 node has no data: cells that touch it are a hole".into(),
+                    _ => format!("{voids} nodes have no data: cells that touch them are holes"),
+                },
+                &[],
+                "one bit per node, and a test of those read",
             ),
             self.unit(
                 "interpolator",

@@ -20,8 +20,10 @@ mod camera;
 pub mod error;
 mod field;
 pub mod file;
+mod fractal;
 pub mod height_map;
 mod keys;
+mod nodata;
 pub mod screen;
 pub mod set;
 mod surface;
@@ -180,7 +182,7 @@ pub enum Surface {
 pub struct Terrain {
     /// As written in the scene: a path or `builtin:NAME`.
     pub source: String,
-    /// The samples.
+    /// The samples, with `nodata` carried out: nodes that are NaN are holes.
     pub map: Arc<HeightMap>,
     /// Cell size (Lx, Lz) in scene units, positive.
     pub cell: DVec2,
@@ -190,17 +192,16 @@ pub struct Terrain {
     pub scale: f64,
     /// What lies beyond the map.
     pub outside: Outside,
-    /// What nodes without data become. PNG marks no such nodes, so this takes effect with
-    /// formats that do.
+    /// What nodes without data become, as asked for; `map` holds the outcome.
     pub nodata: NoData,
     /// Depth of the block under the lowest node whose sides are drawn, in scene units, positive.
-    /// A ray that falls below it outside the map sees sky. `None`: a quarter of the relief, two
+    /// A ray that falls below it outside the map or in a hole sees sky. `None`: a quarter of the relief, two
     /// cells at least.
     pub base_depth: Option<f64>,
 }
 
 impl Terrain {
-    /// Height of node (column i, row j) in scene units.
+    /// Height of node (column i, row j) in scene units; NaN in a hole.
     pub fn node(&self, i: usize, j: usize) -> f64 {
         self.height(self.map.sample(i, j))
     }
@@ -210,7 +211,7 @@ impl Terrain {
         (f64::from(sample) - self.offset) * self.scale
     }
 
-    /// Lowest and highest node in scene units.
+    /// Lowest and highest node with data in scene units.
     pub fn range(&self) -> (f64, f64) {
         let (low, high) = self.map.range();
         let (a, b) = (self.height(low), self.height(high));

@@ -9,6 +9,7 @@ use super::error::{SceneError, nearest};
 use super::field::{FARTHEST, Field, Fields, is_length};
 use super::height_map::MapError;
 use super::keys::{self, Keys};
+use super::nodata::apply;
 use super::tree::shown;
 use super::{HeightMap, NoData, Outside, Plane, Surface, Terrain, builtin};
 
@@ -78,8 +79,8 @@ fn plane(table: &Fields<'_>) -> Result<Surface, SceneError> {
 }
 
 fn terrain(table: &Fields<'_>, folder: &Path) -> Result<Surface, SceneError> {
-    let cell = table.read("cell", DVec2::ONE, |cell| {
-        cell.pair("[x, z], two lengths above 0 (from 1e-9 to 1e9)", is_length)
+    let cell = table.read("cell", None, |cell| {
+        cell.pair("[x, z], two lengths above 0 (from 1e-9 to 1e9)", is_length).map(Some)
     })?;
     let height = table.table("height", &keys::HEIGHT)?;
     let offset = height.read("offset", 236.0, |offset| {
@@ -104,12 +105,14 @@ fn terrain(table: &Fields<'_>, folder: &Path) -> Result<Surface, SceneError> {
         }
         None => table.error("map", error.reason, error.remedy),
     })?;
+    let map = apply(map, nodata);
+    let cell = cell.unwrap_or_else(|| default_cell(&source, &map));
     let terrain = Terrain { source, map, cell, offset, scale, outside, nodata, base_depth };
     check_extent(table, &terrain)?;
     Ok(Surface::Terrain(terrain))
 }
 
-const MAP: &str = "the path of a greyscale PNG, or \"builtin:jacksboro\"";
+const MAP: &str = "the path of a greyscale PNG, \"builtin:jacksboro\", or \"builtin:jacksboro@N\" with N x N nodes";
 
 fn nodata(field: &Field<'_>) -> Result<NoData, SceneError> {
     const EXPECTED: &str = "\"hole\", \"nearest\" or a number";
@@ -122,8 +125,19 @@ fn nodata(field: &Field<'_>) -> Result<NoData, SceneError> {
     }
 }
 
+/// One unit; but resampled built-in maps cover the same ground with any number of nodes.
+fn default_cell(source: &str, map: &HeightMap) -> DVec2 {
+    if source.starts_with(BUILTIN) {
+        DVec2::splat(builtin::GROUND / (map.columns() - 1) as f64)
+    } else {
+        DVec2::ONE
+    }
+}
+
+const BUILTIN: &str = "builtin:";
+
 fn load(source: &str, folder: &Path) -> Result<Arc<HeightMap>, MapError> {
-    let Some(name) = source.strip_prefix("builtin:") else {
+    let Some(name) = source.strip_prefix(BUILTIN) else {
         return HeightMap::read(&folder.join(source)).map(Arc::new);
     };
     builtin::map(name).unwrap_or_else(|| {

@@ -207,6 +207,7 @@ pub(super) fn stepper<W: Open>(
         } else {
             Hit::Far
         },
+        sides: ends || heights.has_voids(),
         extent: ends.then(|| (heights.columns(), heights.rows())),
         format_x: world.ground(Register::GroundX),
         format_z: world.ground(Register::GroundZ),

@@ -59,13 +59,13 @@ impl<W: Open> Memory<W> {
         else {
             return Ok(None);
         };
-        let heights = heights(world, terrain, walk)?;
+        let heights = heights(world, terrain, walk, plan.fitted.void_bits)?;
         let form = form(&scene.kernel, plan);
         let radius = i32::from(form == Form::Stretch);
         let pyramid = plan.fitted.pyramid.then(|| Arc::new(Pyramid::new(&heights, radius)));
-        let maxima = (plan.fitted.pyramid && heights.edge() != Edge::Wraps)
-            .then(|| world.fixed(Register::Node))
-            .flatten()
+        let maxima = world
+            .fixed(Register::Node)
+            .filter(|format| plan.fitted.pyramid && packets_walk(&heights, form, walk, format.point))
             .map(|format| Arc::new(maxima(&heights, walk, &scene.kernel, form, format.point)));
         let rom = match form {
             Form::Hat => None,
@@ -96,6 +96,7 @@ fn heights<W: Open>(
     world: &W,
     terrain: &Terrain,
     walk: &WalkPlan,
+    void_bits: bool,
 ) -> Result<HeightMemory<W::Height>, super::SetupError> {
     let format = world.height(Register::Node);
     let nodes = terrain
@@ -103,7 +104,9 @@ fn heights<W: Open>(
         .samples()
         .par_iter()
         .map(|&sample| {
-            let height = walk.scale.to_register(terrain.height(sample));
+            // Nodes without data are as low as the lowest, so that no bound is raised by them.
+            let height =
+                if sample.is_nan() { 0.0 } else { walk.scale.to_register(terrain.height(sample)) };
             load(height, Register::Node, format)
         })
         .collect::<Result<Vec<_>, _>>()?;
@@ -113,7 +116,33 @@ fn heights<W: Open>(
         Outside::Clamp => Edge::Clamps,
         Outside::Wrap => Edge::Wraps,
     };
-    Ok(HeightMemory::new(nodes, columns, rows, edge))
+    let memory = HeightMemory::new(nodes, columns, rows, edge);
+    Ok(if void_bits {
+        memory.with_voids(terrain.map.samples().iter().map(|sample| sample.is_nan()).collect())
+    } else {
+        memory
+    })
+}
+
+/// Whether the fast engine's packets know the map: not where blocks would meet at a seam, nor holes
+/// that are no cells of the map, nor heights whose products with weights need more than 64 bits.
+fn packets_walk<T: Copy>(
+    heights: &HeightMemory<T>,
+    form: Form,
+    walk: &WalkPlan,
+    point: u32,
+) -> bool {
+    let cells = match heights.edge() {
+        Edge::Wraps => false,
+        Edge::Clamps => !heights.has_voids(),
+        Edge::Ends => !heights.has_voids() || form != Form::Stretch,
+    };
+    cells && bits(walk.top, point) + (point as i32) < 62
+}
+
+/// Bits of a positive value with a binary point, rounded up.
+fn bits(value: f64, point: u32) -> i32 {
+    libm::ceil(libm::log2(value.max(f64::MIN_POSITIVE))) as i32 + point as i32
 }
 
 /// The fast engine's maxima: heights in coarse steps of 15 bits, rounded up.
@@ -124,17 +153,11 @@ fn maxima<T: Readout + Send + Sync>(
     form: Form,
     point: u32,
 ) -> Maxima {
-    let bits = libm::ceil(libm::log2(walk.top.max(f64::MIN_POSITIVE))) as i32 + point as i32;
-    let places = (bits - 14).max(0) as u32;
+    let places = (bits(walk.top, point) - 14).max(0) as u32;
     let steps = libm::exp2(f64::from(point) - f64::from(places));
     let nodes = heights.nodes();
     let coarse = nodes.par_iter().map(|node| libm::ceil(node.value() * steps) as i16).collect();
-    let coarse = HeightMemory::new(
-        coarse,
-        heights.columns() as usize,
-        heights.rows() as usize,
-        heights.edge(),
-    );
+    let coarse = heights.with_words(coarse);
     Maxima::new(&coarse, i32::from(form == Form::Stretch), places, bend(kernel, form))
 }
 

@@ -71,6 +71,8 @@ pub struct Explanation {
     pub oracle_color: [u8; 3],
     /// Why the ray ended at the divider, if it did.
     pub turned_away: Option<&'static str>,
+    /// What a hole of the map has to do with the end of the ray, if anything.
+    pub hole: Option<&'static str>,
     /// Registers in the order of the data flow.
     pub rows: Vec<Row>,
 }
@@ -144,6 +146,7 @@ pub fn explain(
         color: fixed.color,
         oracle_color: sighting.color,
         turned_away: fixed.turned_away,
+        hole: fixed.hole,
         rows,
     })
 }

@@ -1,8 +1,9 @@
 //! The height memory: nodes of the map, and what lies beyond its edge.
 //!
 //! *In hardware*: four banks by `(i & 1, j & 1)`, so that any 2×2 block is read in one cycle and a
-//! 3×3 block in four. *Never*: reads outside the map; addresses are clamped, or wrapped by
-//! subtracting the size.
+//! 3×3 block in four. Where the map has holes, every node has one more bit, which marks it as one
+//! without data and is read with it. *Never*: reads outside the map; addresses are clamped, or
+//! wrapped by subtracting the size.
 
 /// What the address unit does beyond the edge nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +20,8 @@ pub enum Edge {
 #[derive(Clone, Debug)]
 pub struct HeightMemory<T> {
     nodes: Vec<T>,
+    /// The bits that mark nodes without data, where they are fitted.
+    voids: Option<Vec<bool>>,
     columns: i32,
     rows: i32,
     edge: Edge,
@@ -31,7 +34,28 @@ impl<T: Copy> HeightMemory<T> {
     /// If the number of nodes differs or is zero: set-up has checked it.
     pub fn new(nodes: Vec<T>, columns: usize, rows: usize, edge: Edge) -> Self {
         assert!(!nodes.is_empty() && nodes.len() == columns * rows);
-        Self { nodes, columns: columns as i32, rows: rows as i32, edge }
+        Self { nodes, voids: None, columns: columns as i32, rows: rows as i32, edge }
+    }
+
+    /// The memory with a bit per node that marks those without data; what their words hold is
+    /// never drawn.
+    ///
+    /// # Panics
+    /// If there is not one bit per node.
+    #[must_use]
+    pub fn with_voids(self, voids: Vec<bool>) -> Self {
+        assert!(voids.len() == self.nodes.len());
+        Self { voids: Some(voids), ..self }
+    }
+
+    /// The same map with other words.
+    ///
+    /// # Panics
+    /// If there is not one word per node.
+    pub fn with_words<U>(&self, nodes: Vec<U>) -> HeightMemory<U> {
+        assert!(nodes.len() == self.nodes.len());
+        let Self { ref voids, columns, rows, edge, .. } = *self;
+        HeightMemory { nodes, voids: voids.clone(), columns, rows, edge }
     }
 
     /// Nodes in x.
@@ -54,7 +78,23 @@ impl<T: Copy> HeightMemory<T> {
         &self.nodes
     }
 
-    /// Whether the map has a surface in the cell whose corner is node (i, j).
+    /// Whether nodes may have no data: the memory has the bits that say so.
+    #[inline(always)]
+    pub fn has_voids(&self) -> bool {
+        self.voids.is_some()
+    }
+
+    /// Whether one of the `count` × `count` nodes from (i, j) on has no data.
+    #[inline(always)]
+    pub fn any_void(&self, i: i32, j: i32, count: i32) -> bool {
+        let Some(voids) = &self.voids else { return false };
+        (j..j + count).any(|j| {
+            let row = self.row(j) * self.columns as usize;
+            (i..i + count).any(|i| voids[row + self.column(i)])
+        })
+    }
+
+    /// Whether the map covers the cell whose corner is node (i, j).
     #[inline(always)]
     pub fn contains(&self, i: i32, j: i32) -> bool {
         match self.edge {

@@ -17,7 +17,8 @@
 //! | `ground_x`, `ground_z`, `hit` | `surface`, `slope_x`, `slope_z` |
 //!
 //! *Cycles*: one result per cycle over 2×2 nodes, four cycles over 3×3 (memory banks).
-//! *Never*: truncates a partial product.
+//! *Holes*: the surface exists where every node that it is made of has data; bits read with the nodes
+//! say so. *Never*: truncates a partial product.
 
 use std::sync::Arc;
 
@@ -138,6 +139,20 @@ impl<W: Interpolating> Interpolator<W> {
             heights.at(east, north),
             heights.at(east, south),
         ]
+    }
+
+    /// Whether a node that the surface at a place is made of has no data.
+    #[inline(always)]
+    pub fn is_hole(&self, x: W::Ground, z: W::Ground) -> bool {
+        let heights = &*self.heights;
+        if !heights.has_voids() {
+            return false;
+        }
+        if self.form == Form::Stretch {
+            heights.any_void(x.nearest() - 1, z.nearest() - 1, 3)
+        } else {
+            heights.any_void(x.cell(), z.cell(), 2)
+        }
     }
 
     /// Surface height and slopes at a place (equations 14 to 18).
@@ -289,8 +304,13 @@ fn slope<H: Multiply<T>, T: Word>(nodes: [H; 3], slopes: [T; 2], site: Site) -> 
 
 impl<W: Interpolating> SurfaceUnit<W> for Interpolator<W> {
     #[inline(always)]
-    fn contains(&self, x: W::Ground, z: W::Ground) -> bool {
+    fn is_on_map(&self, x: W::Ground, z: W::Ground) -> bool {
         self.heights.contains(x.cell(), z.cell())
+    }
+
+    #[inline(always)]
+    fn contains(&self, x: W::Ground, z: W::Ground) -> bool {
+        self.is_on_map(x, z) && !self.is_hole(x, z)
     }
 
     #[inline(always)]

@@ -6,16 +6,16 @@
 //!
 //! The walk starts at the eye, or where the ray enters the slab under the highest node. ΔP is V
 //! shifted right and rounded to nearest so that its largest component lies between 2^−k−1 and 2^−k
-//! cells (equation 20). A sample hits if it is over the map and `y < surface`, strictly; the first
-//! such index is the hit, refined by halvings.
+//! cells (equation 20). A sample hits if the surface exists there and `y < surface`, strictly; the
+//! first such index is the hit, refined by halvings.
 //!
 //! | wire in | wire out |
 //! |---|---|
 //! | `view_*`, `entry`, `ground_x`, `ground_z` | `hit`, `ground_x`, `ground_z`, `steps`, `work` |
 //!
-//! *Named outcomes*: `Side` when the last clear place, after the halvings, lies outside the map; `Sky` when the
-//! ray is out of the map and receding, above the highest node and rising, or outside the map,
-//! under its base and falling; `Far` when the last index is reached.
+//! *Named outcomes*: `Side` when the last clear place, after the halvings, lies outside the map or in
+//! a hole; `Sky` when the ray is out of the map and receding, above the highest node and rising, or
+//! outside the map or in a hole, under the base and falling; `Far` when the last index is reached.
 //! *Never*: wraps a position (proved at set-up for the last index and the largest jump), passes a
 //! sample that might hit.
 
@@ -29,7 +29,9 @@ use crate::word::{Cell, Register, Rescale, Site, Word, World};
 
 /// What the stepper asks of the interpolator.
 pub trait SurfaceUnit<W: World> {
-    /// Whether the surface exists at a place.
+    /// Whether a place is within the edges of the map, so that nodes are read there.
+    fn is_on_map(&self, x: W::Ground, z: W::Ground) -> bool;
+    /// Whether the surface exists at a place: it is on the map and not in a hole.
     fn contains(&self, x: W::Ground, z: W::Ground) -> bool;
     /// Its height there.
     fn height(&self, x: W::Ground, z: W::Ground, site: Site) -> W::Height;
@@ -76,6 +78,8 @@ pub struct Stepper<W: World> {
     pub beyond: Hit,
     /// Nodes of the map where it ends at its edge.
     pub extent: Option<(i32, i32)>,
+    /// The map has sides, drawn down to the base: it ends at its edge, or has holes.
+    pub sides: bool,
     /// Format of x.
     pub format_x: <W::Ground as Word>::Format,
     /// Format of z.
@@ -146,7 +150,7 @@ pub struct Heading {
     pub south: bool,
     /// Not downwards.
     pub rises: bool,
-    /// Not upwards.
+    /// Not upwards, on a map with sides: below the base it can meet nothing.
     pub falls: bool,
 }
 
@@ -272,14 +276,17 @@ impl<W: World> Stepper<W> {
             for _ in 0..run {
                 place = place.plus(step);
                 index += 1;
+                if surface.is_on_map(place.x, place.z) {
+                    // In a hole, too, the nodes are read: their bits tell that it is one.
+                    streamed = true;
+                    work.samples += 1;
+                }
                 if !surface.contains(place.x, place.z) {
                     if self.is_over(place, heading) {
                         break;
                     }
                     continue;
                 }
-                streamed = true;
-                work.samples += 1;
                 let height = surface.height(place.x, place.z, site.step(index << 3));
                 if place.y < height {
                     work.groups += 1;
@@ -301,29 +308,31 @@ impl<W: World> Stepper<W> {
         mut work: Work,
     ) -> Walk<W> {
         let times = self.halvings_at(hit);
-        let mut clear = hit.minus(step);
+        let (mut clear, mut met) = (hit.minus(step), hit);
         for halving in 1..=times {
             work.halvings += 1;
             let middle = clear.plus(step.halved(halving));
             let site = site.step(1 << 30 | halving << 3);
             let hits = surface.contains(middle.x, middle.z)
                 && middle.y < surface.height(middle.x, middle.z, site);
-            if !hits {
+            if hits {
+                met = middle;
+            } else {
                 clear = middle;
             }
         }
         if surface.contains(clear.x, clear.z) {
             // The middle of the last interval halves the error for one more addition.
-            let place = clear.plus(step.halved(times + 1));
+            let middle = clear.plus(step.halved(times + 1));
+            let place = if surface.contains(middle.x, middle.z) { middle } else { met };
             Walk { hit: Hit::Surface, place, index, work }
         } else {
-            let place = clear.plus(step.halved(times));
-            Walk { hit: self.beside(place, step), place, index, work }
+            Walk { hit: self.beside(met, step), place: met, index, work }
         }
     }
 
-    /// What a ray meets where it comes from beside the map under the surface: the side, down to the
-    /// base.
+    /// What a ray meets where it comes from beside the map or out of a hole under the surface: the
+    /// side, down to the base.
     #[inline(always)]
     pub fn beside(&self, place: Place<W>, step: Place<W>) -> Hit {
         if step.y.sign() <= 0 && place.y < self.base { Hit::Sky } else { Hit::Side }
@@ -338,14 +347,14 @@ impl<W: World> Stepper<W> {
             north: step.z.sign() <= 0,
             south: step.z.sign() >= 0,
             rises: step.y.sign() >= 0,
-            falls: step.y.sign() <= 0,
+            falls: self.sides && step.y.sign() <= 0,
         }
     }
 
     /// Whether the ray can no longer meet the surface.
     #[inline(always)]
     pub fn is_over(&self, place: Place<W>, heading: Heading) -> bool {
-        if heading.rises && place.y >= self.top {
+        if (heading.rises && place.y >= self.top) || (heading.falls && place.y < self.base) {
             return true;
         }
         let Some((columns, rows)) = self.extent else { return false };
@@ -354,6 +363,5 @@ impl<W: World> Stepper<W> {
             || (heading.east && i >= columns - 1)
             || (heading.north && j < 0)
             || (heading.south && j >= rows - 1)
-            || (heading.falls && place.y < self.base)
     }
 }

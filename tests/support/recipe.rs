@@ -23,6 +23,20 @@ pub enum Relief {
     Constant,
 }
 
+/// Which nodes have no data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Voids {
+    None,
+    /// A share of all nodes, here and there.
+    Scattered(f64),
+    /// Whole blocks, of so many nodes a side.
+    Blocks(usize),
+    /// The outermost nodes.
+    Border,
+    /// Every second node in both directions.
+    Grid,
+}
+
 /// Where the eye is; lengths are shares of the map's extent, heights shares of its relief.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Eye {
@@ -50,6 +64,7 @@ pub enum Turn {
 pub struct Recipe {
     pub nodes: (usize, usize),
     pub relief: Relief,
+    pub voids: Voids,
     pub seed: u64,
     pub cell: (f64, f64),
     /// Relief in cells of mean size.
@@ -82,6 +97,18 @@ impl Recipe {
         };
         let (a, b) = (random(columns, rows), random(rows, columns + 1));
         map(columns, rows, |i, j| {
+            let chance = |i: usize, j: usize| mix(!self.seed, (j * columns + i) as u64) % 1000;
+            let void = match self.voids {
+                Voids::None => false,
+                Voids::Scattered(share) => (chance(i, j) as f64) < 1000.0 * share,
+                Voids::Blocks(size) => chance(i / size, j / size) < 300,
+                Voids::Border => i == 0 || j == 0 || i == columns - 1 || j == rows - 1,
+                Voids::Grid => i % 2 == 1 && j % 2 == 1,
+            };
+            // Somewhere there must be data.
+            if void && (i, j) != (columns / 2, rows / 2) {
+                return f32::NAN;
+            }
             let noise = random(i, j);
             100.0
                 * match self.relief {
@@ -168,8 +195,9 @@ impl Recipe {
             }
             Eye::Inside { x, z, up } => {
                 let (x, z) = at(x * 0.98 + 0.01, z * 0.98 + 0.01);
-                let ground = ground_under(scene, x, z).unwrap_or(high);
-                // Nodes on the far edge are of no patch, and patches may meet in a step.
+                // In a hole, and on the far edge, whose nodes are of no patch, eyes may be lower.
+                let ground = ground_under(scene, x, z).unwrap_or(low - 0.3 * relief);
+                // Patches may meet in a step.
                 DVec3::new(x, ground + up * (high - ground) + 0.01 * unit, z)
             }
             Eye::Beside { x, z, up, away } => {
@@ -295,9 +323,16 @@ pub fn recipes() -> BoxedStrategy<Recipe> {
     let steepness = prop_oneof![0.05..1.0, 1.0..12.0, 12.0..60.0_f64];
     let outside = select(vec![Outside::Sky, Outside::Sky, Outside::Clamp, Outside::Wrap]);
     let halvings = prop_oneof![Just(Halvings::Footprint), (0..=20_u32).prop_map(Halvings::Fixed)];
+    let voids = prop_oneof![
+        6 => Just(Voids::None),
+        2 => (0.002..0.3_f64).prop_map(Voids::Scattered),
+        2 => (1..=9_usize).prop_map(Voids::Blocks),
+        1 => Just(Voids::Border),
+        1 => Just(Voids::Grid),
+    ];
     let land = (
         (side(), side()),
-        relief,
+        (relief, voids),
         any::<u64>(),
         cell,
         steepness,
@@ -320,7 +355,8 @@ pub fn recipes() -> BoxedStrategy<Recipe> {
     (land, walk, look)
         .prop_map(|(land, walk, look)| Recipe {
             nodes: land.0,
-            relief: land.1,
+            relief: land.1.0,
+            voids: land.1.1,
             seed: land.2,
             cell: land.3,
             steepness: land.4,

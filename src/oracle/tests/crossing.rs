@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Dice, Naive, kernels, oracle, rough_map, scene, terrain};
+use super::{Dice, Naive, kernels, oracle, rough_map, scene, terrain, with_holes};
 use crate::frame::Hit;
 use crate::oracle::{Oracle, Sighting};
 use crate::scene::{HeightMap, Outside, Surface, Terrain};
@@ -59,9 +59,9 @@ impl<'a> March<'a> {
             if y >= high && self.direction.y >= 0.0 {
                 return Err(Hit::Sky);
             }
-            if ends && !self.is_over(lambda) {
-                let below = y < low - terrain.base_depth() && self.direction.y < 0.0;
-                if below || n as f64 > ACROSS * FINENESS {
+            if !self.is_over(lambda) {
+                let below = y < low - terrain.base_depth() && self.direction.y <= 0.0;
+                if below || (ends && n as f64 > ACROSS * FINENESS) {
                     return Err(Hit::Sky);
                 }
             }
@@ -112,11 +112,12 @@ fn eyes(outside: Outside) -> Vec<(DVec3, DVec3)> {
     eyes
 }
 
-fn check_all(outside: Outside, rays: usize) -> [usize; 4] {
+fn check_all(outside: Outside, holes: f64, rays: usize) -> [usize; 4] {
     let mut outcomes = [0; 4];
     let mut dice = Dice(99);
     for kernel in kernels() {
-        let terrain = terrain(rough_map(9, 7, 1 + dice.0 % 7), outside);
+        let map = rough_map(9, 7, 1 + dice.0 % 7);
+        let terrain = terrain(with_holes(&map, holes, dice.0), outside);
         for (eye, forward) in eyes(outside) {
             let scene = scene(Surface::Terrain(terrain.clone()), kernel, eye, forward);
             let oracle: Oracle = oracle(&scene).with_reach_cells(REACH);
@@ -135,20 +136,31 @@ fn check_all(outside: Outside, rays: usize) -> [usize; 4] {
 
 #[test]
 fn no_crossing_is_jumped_on_a_map_that_ends() {
-    let [sky, surface, side, far] = check_all(Outside::Sky, 40);
+    let [sky, surface, side, far] = check_all(Outside::Sky, 0.0, 40);
     assert!(sky > 100 && surface > 500 && side > 100 && far == 0);
 }
 
 #[test]
 fn no_crossing_is_jumped_on_a_map_that_goes_on() {
-    let [sky, surface, side, far] = check_all(Outside::Clamp, 25);
+    let [sky, surface, side, far] = check_all(Outside::Clamp, 0.0, 25);
     assert!(sky > 10 && surface > 500 && side == 0 && far > 10);
 }
 
 #[test]
 fn no_crossing_is_jumped_on_a_map_that_repeats() {
-    let [sky, surface, side, _] = check_all(Outside::Wrap, 25);
+    let [sky, surface, side, _] = check_all(Outside::Wrap, 0.0, 25);
     assert!(sky > 10 && surface > 500 && side == 0);
+}
+
+#[test]
+fn no_side_of_a_hole_is_jumped() {
+    for outside in [Outside::Sky, Outside::Clamp, Outside::Wrap] {
+        for share in [0.04, 0.15] {
+            let [sky, surface, side, _] = check_all(outside, share, 25);
+            let found = format!("{outside:?} {share}: {sky} {surface} {side}");
+            assert!(sky > 100 && surface > 200 && side > 40, "{found}");
+        }
+    }
 }
 
 /// A wide plain with a few high nodes: most of a walk passes over blocks of several sizes.
@@ -159,8 +171,10 @@ fn no_crossing_is_jumped_by_passing_over_blocks() {
     for outside in [Outside::Sky, Outside::Clamp, Outside::Wrap] {
         let samples =
             (0..150 * 90).map(|_| if dice.roll() < 0.003 { 100.0 } else { 50.0 }).collect();
-        let terrain = terrain(HeightMap::new(150, 90, samples), outside);
-        for kernel in kernels() {
+        let whole = HeightMap::new(150, 90, samples);
+        let holed = with_holes(&whole, 0.003, 5);
+        for (kernel, map) in kernels().into_iter().flat_map(|k| [(k, &whole), (k, &holed)]) {
+            let terrain = terrain(map.clone(), outside);
             let eye = DVec3::new(170.0, 1.2, 40.3);
             let scene = scene(Surface::Terrain(terrain.clone()), kernel, eye, DVec3::NEG_X);
             let oracle = oracle(&scene).with_reach_cells(REACH);
@@ -200,8 +214,10 @@ fn hits_project_back_to_their_pixels() {
 
 #[test]
 fn crossings_are_counted_as_the_march_counts_them() {
-    for kernel in kernels() {
-        let terrain = terrain(rough_map(9, 7, 6), Outside::Sky);
+    let whole = rough_map(9, 7, 6);
+    let holed = with_holes(&whole, 0.06, 6);
+    for (kernel, map) in kernels().into_iter().flat_map(|k| [(k, &whole), (k, &holed)]) {
+        let terrain = terrain(map.clone(), Outside::Sky);
         // No sample of the march falls on the edge of the map.
         let (eye, forward) = (DVec3::new(-4.003, 0.4, 6.01), DVec3::new(1.0, 0.0, -0.6));
         let oracle = oracle(&scene(Surface::Terrain(terrain.clone()), kernel, eye, forward));

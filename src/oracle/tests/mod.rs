@@ -62,6 +62,13 @@ pub(super) fn rough_map(columns: usize, rows: usize, seed: u64) -> HeightMap {
     HeightMap::new(columns, rows, samples)
 }
 
+/// A map with no data at a random share of its nodes.
+pub(super) fn with_holes(map: &HeightMap, share: f64, seed: u64) -> HeightMap {
+    let mut dice = Dice(seed);
+    let samples = map.samples().iter().map(|&s| if dice.roll() < share { f32::NAN } else { s });
+    HeightMap::new(map.columns(), map.rows(), samples.collect())
+}
+
 pub(super) fn terrain(map: HeightMap, outside: Outside) -> Terrain {
     Terrain {
         source: "test".into(),
@@ -181,21 +188,23 @@ impl Naive<'_> {
         }
     }
 
-    /// y at (x, z), scene units; the caller stays in the domain.
+    /// y at (x, z), scene units; NaN in a hole. The caller stays in the domain.
     pub(super) fn height(&self, x: f64, z: f64) -> f64 {
         let (wx, wz) =
             (self.weights(x / self.terrain.cell.x), self.weights(z / self.terrain.cell.y));
         wx.iter().map(|(i, a)| wz.iter().map(|(j, b)| a * b * self.node(*i, *j)).sum::<f64>()).sum()
     }
 
-    /// Whether (x, z) lies over the map.
+    /// Whether (x, z) lies over the map and not in a hole: a node without data makes the weighted
+    /// sum NaN, whatever its weight.
     pub(super) fn is_over(&self, x: f64, z: f64) -> bool {
         let t = self.terrain;
         let (a, b) = (x / t.cell.x, z / t.cell.y);
-        t.outside != Outside::Sky
+        (t.outside != Outside::Sky
             || (a >= 0.0
                 && b >= 0.0
                 && a < (t.map.columns() - 1) as f64
-                && b < (t.map.rows() - 1) as f64)
+                && b < (t.map.rows() - 1) as f64))
+            && !self.height(x, z).is_nan()
     }
 }

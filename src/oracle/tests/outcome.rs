@@ -85,6 +85,43 @@ fn sides_and_base() {
 }
 
 #[test]
+fn a_hole_has_sides_and_no_floor() {
+    // Surface at 1, base at −1; node (5, 5) has no data.
+    for outside in [Outside::Sky, Outside::Clamp, Outside::Wrap] {
+        for kernel in kernels() {
+            let mut samples = vec![60.0; 121];
+            samples[5 * 11 + 5] = f32::NAN;
+            let mut map = flat(outside);
+            map.map = std::sync::Arc::new(HeightMap::new(11, 11, samples));
+            // Cells 4 and 5, or one more half at either end where nine nodes are mixed.
+            let reach = if kernel.deformation == Deformation::Stretch { 1.5 } else { 1.0 };
+            let (west, east) = (5.0 - reach, 5.0 + reach);
+            let eye = DVec3::new(2.0, 3.0, 5.0);
+            let at = |x, y| sight(&map, kernel, eye, DVec3::new(x, y, 5.0));
+            assert_eq!(at(west - 0.01, 1.0).hit, Hit::Surface);
+            assert_eq!(at(east + 0.01, 1.0).hit, Hit::Surface);
+            let side = at(east, 0.5);
+            assert_eq!((side.hit, side.color), (Hit::Side, [90, 70, 50]));
+            assert!(side.point.abs_diff_eq(DVec3::new(east, 1.0, 5.0), 1e-12), "{side:?}");
+            let down = DVec3::new(0.2, -1.0, 0.0);
+            let steep = DVec3::new(west + 0.01, 1.0, 5.0);
+            assert_eq!(sight(&map, kernel, steep - down, steep + down).hit, Hit::Sky);
+            // An eye in the hole, under the ground around it.
+            let inside = |to| sight(&map, kernel, DVec3::new(5.0, -0.5, 5.0), to);
+            assert_eq!(inside(DVec3::new(east, -0.9, 5.0)).hit, Hit::Side);
+            assert_eq!(inside(DVec3::new(east, -1.1, 5.0)).hit, Hit::Sky);
+            assert_eq!(inside(DVec3::new(5.0, 2.0, 5.5)).hit, Hit::Sky);
+            let scene = scene(Surface::Terrain(map.clone()), kernel, eye, DVec3::X);
+            let oracle = oracle(&scene);
+            assert_eq!(oracle.surface_height(5.0, 5.0), None);
+            assert_eq!(oracle.surface_height(west + 1e-9, 5.0), None);
+            assert_eq!(oracle.surface_height(west - 1e-9, 5.0), Some(1.0));
+            assert_eq!(oracle.surface_normal(5.2, 4.8), None);
+        }
+    }
+}
+
+#[test]
 fn maps_without_end_have_a_reach() {
     for outside in [Outside::Clamp, Outside::Wrap] {
         for kernel in kernels() {

@@ -11,7 +11,7 @@ use crate::unit::Line;
 use crate::unit::divider::Method;
 use crate::unit::interpolator::{AT_THE_HIT, Form};
 use crate::unit::line::{Entry, Work};
-use crate::unit::stepper::Place;
+use crate::unit::stepper::{Place, SurfaceUnit as _};
 use crate::word::{Cell, Complete, Fixed, Readout, Register, Site};
 
 /// A register as one world has it.
@@ -34,6 +34,8 @@ pub(super) struct Trace {
     pub color: [u8; 3],
     /// Why the divider turned the ray away, if it did.
     pub turned_away: Option<&'static str>,
+    /// What a hole has to do with the end of the ray, if anything.
+    pub hole: Option<&'static str>,
     /// Power of two from view vector to step.
     pub exponent: i32,
     pub readings: Vec<Reading>,
@@ -104,6 +106,7 @@ impl Walk<'_> {
             work: line.work[0],
             color: line.color[0],
             turned_away: None,
+            hole: None,
             exponent: 0,
             readings: Vec::new(),
             formats: Register::ALL.iter().map(|&register| world.fixed(register)).collect(),
@@ -174,6 +177,8 @@ impl Walk<'_> {
             place = Place { x: place.x + step.x, y: place.y + step.y, z: place.z + step.z };
         }
         trace.place("last sample", place);
+        trace.hole =
+            at_hole(units, trace.hit, place.minus(step), [line.ground_x[0], line.ground_z[0]]);
         if !matches!(trace.hit, Hit::Surface | Hit::Side) {
             return;
         }
@@ -240,5 +245,27 @@ impl Walk<'_> {
             trace.read(Register::WeightSlope, "weight slope, x", arm_x.slope);
             trace.read(Register::WeightSlope, "weight slope, z", arm_z.slope);
         }
+    }
+}
+
+/// What a hole has to do with the end of a ray, from the place before its last sample and the one
+/// on the wires.
+fn at_hole<W: Complete>(
+    units: &TerrainUnits<W>,
+    hit: Hit,
+    before: Place<W>,
+    [x, z]: [W::Ground; 2],
+) -> Option<&'static str> {
+    let interpolator = &units.interpolator;
+    let holed = interpolator.heights.has_voids();
+    match hit {
+        // What is on the map and no surface is a hole.
+        Hit::Side if holed && interpolator.is_on_map(before.x, before.z) => {
+            Some("the ray comes out of a hole under the surface and meets its side")
+        }
+        Hit::Sky if holed && interpolator.is_on_map(x, z) && interpolator.is_hole(x, z) => {
+            Some("the ray leaves the map through a hole")
+        }
+        Hit::Surface | Hit::Side | Hit::Sky | Hit::Far => None,
     }
 }

@@ -22,6 +22,7 @@ mod field;
 pub mod file;
 pub mod height_map;
 mod keys;
+pub mod overlook;
 pub mod screen;
 pub mod set;
 mod surface;
@@ -34,7 +35,7 @@ use glam::{DVec2, DVec3};
 pub use crate::word::{Overflow, Rounding};
 pub use builtin::load;
 pub use error::SceneError;
-pub use height_map::HeightMap;
+pub use height_map::{Encoding, HeightFile, HeightMap};
 
 /// A complete scene: camera, screens, one surface, and the machine that draws it.
 #[derive(Clone, Debug)]
@@ -190,8 +191,7 @@ pub struct Terrain {
     pub scale: f64,
     /// What lies beyond the map.
     pub outside: Outside,
-    /// What nodes without data become. PNG marks no such nodes, so this takes effect with
-    /// formats that do.
+    /// What nodes without data become.
     pub nodata: NoData,
     /// Depth of the block under the lowest node whose sides are drawn, in scene units, positive.
     /// A ray that falls below it outside the map sees sky. `None`: a quarter of the relief, two

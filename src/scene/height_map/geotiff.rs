@@ -1,12 +1,15 @@
 //! GeoTIFF: one band of integers or floats with its georeference.
 //!
-//! The `tiff` crate unpacks strips and tiles. What the file claims is compared with the file
-//! beforehand ([`directory`], [`image`]): the decoder trusts its input with its memory.
+//! What the file claims is compared with the file before anything is allocated for it
+//! ([`directory`], [`image`]); strips and tiles are unpacked row by row ([`unpack`]). The decoder
+//! of the `tiff` crate (0.11.3) is not used: it refuses LZW tiles that are sound (its issue 395),
+//! and takes memory for whatever a directory claims before limits can be set.
 
 mod directory;
 mod image;
 mod keys;
 mod samples;
+mod unpack;
 
 use super::source::{Found, HeightFile, Storage};
 use super::{MapError, one_line};
@@ -17,7 +20,7 @@ use image::Image;
 pub(super) const MAGIC: [&[u8]; 4] = [b"II\x2A\0", b"MM\0\x2A", b"II\x2B\0", b"MM\0\x2B"];
 
 /// Decodes a GeoTIFF file.
-pub(super) fn decode(mut bytes: Vec<u8>, name: &str) -> Result<HeightFile, MapError> {
+pub(super) fn decode(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
     let damaged = |reason: String| {
         MapError::new(
             name,
@@ -25,7 +28,7 @@ pub(super) fn decode(mut bytes: Vec<u8>, name: &str) -> Result<HeightFile, MapEr
             "download or write the file again; gdal_translate IN OUT.tif rewrites what it can read",
         )
     };
-    let tiff = Tiff::new(&bytes);
+    let tiff = Tiff::new(bytes);
     let directories = tiff.directories().map_err(damaged)?;
     let mut notes = Vec::new();
     let chosen = choose(&tiff, &directories, &mut notes).map_err(damaged)?;
@@ -40,16 +43,7 @@ pub(super) fn decode(mut bytes: Vec<u8>, name: &str) -> Result<HeightFile, MapEr
         layout: Some(image.layout_name()),
         byte_order: Some(if tiff.big_endian { "big-endian" } else { "little-endian" }),
     };
-    // The decoder begins at the chosen image: no other directory needs to please it.
-    let (offset_at, width) = tiff.first();
-    let (at, big_endian) = (chosen.at, tiff.big_endian);
-    let offset_at = offset_at as usize;
-    let target = &mut bytes[offset_at..offset_at + width as usize];
-    for (index, byte) in target.iter_mut().enumerate() {
-        let place = if big_endian { width as usize - 1 - index } else { index };
-        *byte = (at >> (8 * place)) as u8;
-    }
-    let samples = samples::read(&bytes, &image, nodata, south_up, &mut notes).map_err(damaged)?;
+    let samples = samples::read(bytes, &image, nodata, south_up, &mut notes).map_err(damaged)?;
     Found { columns: image.columns, rows: image.rows, samples, storage, georeference }
         .finish(name, nodata, notes)
 }

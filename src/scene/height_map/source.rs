@@ -200,7 +200,7 @@ pub fn read(path: &Path, encoding: Encoding) -> Result<HeightFile, MapError> {
         };
         MapError::new(&name, file_reason(&error), remedy)
     })?;
-    decode(bytes, &name, encoding)
+    decode(&bytes, &name, encoding)
 }
 
 /// Decodes a height file held in memory; `name` is what messages call it, and what an `.hgt` file
@@ -208,8 +208,8 @@ pub fn read(path: &Path, encoding: Encoding) -> Result<HeightFile, MapError> {
 ///
 /// # Errors
 /// As [`read`], but for the file itself.
-pub fn decode(bytes: Vec<u8>, name: &str, encoding: Encoding) -> Result<HeightFile, MapError> {
-    let found = format(&bytes, name);
+pub fn decode(bytes: &[u8], name: &str, encoding: Encoding) -> Result<HeightFile, MapError> {
+    let found = format(bytes, name);
     if encoding != Encoding::Stored && found != Some(Format::Png) {
         return Err(MapError::new(
             name,
@@ -221,12 +221,12 @@ pub fn decode(bytes: Vec<u8>, name: &str, encoding: Encoding) -> Result<HeightFi
         ));
     }
     match found {
-        Some(Format::Png) => png::decode(&bytes, name, encoding),
+        Some(Format::Png) => png::decode(bytes, name, encoding),
         Some(Format::Tiff) => geotiff::decode(bytes, name),
-        Some(Format::Zip) => hgt::unzip(&bytes, name),
-        Some(Format::Ascii) => ascii::decode(&bytes, name),
-        Some(Format::Hgt) => hgt::decode(&bytes, name),
-        None => Err(unknown(&bytes, name)),
+        Some(Format::Zip) => hgt::unzip(bytes, name),
+        Some(Format::Ascii) => ascii::decode(bytes, name),
+        Some(Format::Hgt) => hgt::decode(bytes, name),
+        None => Err(unknown(bytes, name)),
     }
 }
 

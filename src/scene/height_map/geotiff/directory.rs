@@ -1,5 +1,5 @@
-//! The directories of a TIFF file, read before the decoder sees them: whatever they claim is
-//! compared with the file, so that nothing is allocated for a claim that cannot be true.
+//! The directories of a TIFF file. Whatever they claim is compared with the file, so that nothing is
+//! allocated for a claim that cannot be true.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -24,9 +24,7 @@ pub mod tag {
     pub const TILE_LENGTH: u16 = 323;
     pub const TILE_OFFSETS: u16 = 324;
     pub const TILE_BYTE_COUNTS: u16 = 325;
-    pub const EXTRA_SAMPLES: u16 = 338;
     pub const SAMPLE_FORMAT: u16 = 339;
-    pub const CHROMA_SUBSAMPLING: u16 = 530;
     pub const PIXEL_SCALE: u16 = 33550;
     pub const TIE_POINTS: u16 = 33922;
     pub const TRANSFORMATION: u16 = 34264;
@@ -56,8 +54,6 @@ struct Entry {
 /// A directory: one image.
 #[derive(Debug, Default)]
 pub(super) struct Directory {
-    /// Offset in the file.
-    pub(super) at: u64,
     entries: BTreeMap<u16, Entry>,
 }
 
@@ -102,14 +98,9 @@ impl<'a> Tiff<'a> {
         })
     }
 
-    /// Where the offset of the first directory lies, and its width.
-    pub(super) fn first(&self) -> (u64, u64) {
-        if self.big { (8, 8) } else { (4, 4) }
-    }
-
     /// All directories in their order.
     pub(super) fn directories(&self) -> Result<Vec<Directory>, Reason> {
-        let (at, width) = self.first();
+        let (at, width) = if self.big { (8, 8) } else { (4, 4) };
         let mut next = self.unsigned_at(at, width).ok_or("it ends within its header")?;
         let mut seen = HashSet::new();
         let mut directories = Vec::new();
@@ -136,7 +127,7 @@ impl<'a> Tiff<'a> {
         }
         let first = at + count_width;
         self.slice(first, count * entry_width).ok_or_else(outside)?;
-        let mut directory = Directory { at, ..Directory::default() };
+        let mut directory = Directory::default();
         for index in 0..count {
             let entry = first + index * entry_width;
             let field = |offset, width| self.unsigned_at(entry + offset, width).ok_or_else(outside);

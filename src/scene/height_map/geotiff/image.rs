@@ -1,5 +1,7 @@
 //! What a directory says about its image, compared with what the file can hold.
 
+use std::ops::Range;
+
 use super::super::{DEFLATE_RATIO, MAX_SIDE, MapError, check_size};
 use super::directory::{Directory, Tiff, tag};
 
@@ -78,32 +80,64 @@ pub(super) struct Image {
     pub(super) columns: usize,
     pub(super) rows: usize,
     pub(super) sample: Sample,
-    compression: u64,
-    predictor: u64,
+    pub(super) big_endian: bool,
+    pub(super) compression: Compression,
+    /// 1 none, 2 differences, 3 differences of the bytes of floats.
+    pub(super) predictor: u64,
     tiled: bool,
     /// Columns and rows of a strip or tile.
     pub(super) block: (usize, usize),
-    /// Whether each strip or tile is stored at all.
-    pub(super) stored: Vec<bool>,
+    /// Where each strip or tile lies in the file; `None` where it is not stored.
+    pub(super) blocks: Vec<Option<Range<usize>>>,
 }
 
-/// Name of a compression, and the most bytes it can make out of one.
-fn compression(number: u64) -> Result<(&'static str, u64), &'static str> {
-    match number {
-        1 => Ok(("uncompressed", 1)),
-        // A code of 12 bits stands for 4096 bytes at most.
-        5 => Ok(("LZW", 2731)),
-        8 | 32946 => Ok(("deflate", DEFLATE_RATIO)),
-        32773 => Ok(("PackBits", 64)),
-        2..=4 => Err("fax"),
-        6 | 7 => Err("JPEG"),
-        34712 => Err("JPEG 2000"),
-        34887 => Err("LERC"),
-        34925 => Err("LZMA"),
-        50000 => Err("Zstandard"),
-        50001 => Err("WebP"),
-        50002 => Err("JPEG XL"),
-        _ => Err("an unknown method"),
+/// How strips and tiles are compressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Compression {
+    None,
+    Lzw,
+    Deflate,
+    PackBits,
+}
+
+impl Compression {
+    /// By its number; the error names a method that is not supported.
+    fn of(number: u64) -> Result<Self, &'static str> {
+        match number {
+            1 => Ok(Self::None),
+            5 => Ok(Self::Lzw),
+            8 | 32946 => Ok(Self::Deflate),
+            32773 => Ok(Self::PackBits),
+            2..=4 => Err("fax"),
+            6 | 7 => Err("JPEG"),
+            34712 => Err("JPEG 2000"),
+            34887 => Err("LERC"),
+            34925 => Err("LZMA"),
+            50000 => Err("Zstandard"),
+            50001 => Err("WebP"),
+            50002 => Err("JPEG XL"),
+            _ => Err("an unknown method"),
+        }
+    }
+
+    /// The most bytes that one byte can stand for.
+    fn ratio(self) -> u64 {
+        match self {
+            Self::None => 1,
+            // A code of at least 9 bits stands for at most 4096 bytes.
+            Self::Lzw => 4096,
+            Self::Deflate => DEFLATE_RATIO,
+            Self::PackBits => 64,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::None => "uncompressed",
+            Self::Lzw => "LZW",
+            Self::Deflate => "deflate",
+            Self::PackBits => "PackBits",
+        }
     }
 }
 
@@ -173,8 +207,8 @@ impl Image {
             );
         };
         let number = one(tag::COMPRESSION, 1)?;
-        let ratio = match compression(number) {
-            Ok((_, ratio)) => ratio,
+        let compression = match Compression::of(number) {
+            Ok(compression) => compression,
             Err(method) => {
                 return unfit(
                     format!("it is compressed by {method} (number {number})"),
@@ -193,26 +227,18 @@ impl Image {
         if !matches!(planar, 1 | 2) {
             return Err(damaged(format!("its planes are ordered in the unknown way {planar}")));
         }
-        // Tags of one value each that the decoder reads into lists.
-        for tag in
-            [tag::BITS_PER_SAMPLE, tag::SAMPLE_FORMAT, tag::EXTRA_SAMPLES, tag::CHROMA_SUBSAMPLING]
-        {
-            if tiff.count(directory, tag) > 4 {
-                return Err(damaged(format!("tag {tag} has too many values for one band")));
-            }
-        }
-
         let mut image = Self {
             columns: columns as usize,
             rows: rows as usize,
             sample,
-            compression: number,
+            big_endian: tiff.big_endian,
+            compression,
             predictor,
             tiled: tiff.count(directory, tag::TILE_OFFSETS) > 0,
             block: (0, 0),
-            stored: Vec::new(),
+            blocks: Vec::new(),
         };
-        image.read_blocks(tiff, directory, ratio, length as u64).map_err(damaged)?;
+        image.read_blocks(tiff, directory, length as u64).map_err(damaged)?;
         Ok(image)
     }
 
@@ -221,7 +247,6 @@ impl Image {
         &mut self,
         tiff: &Tiff<'_>,
         directory: &Directory,
-        ratio: u64,
         length: u64,
     ) -> Result<(), String> {
         let (columns, rows) = (self.columns as u64, self.rows as u64);
@@ -259,11 +284,11 @@ impl Image {
             tiff.unsigned(directory, tag)?.ok_or_else(|| format!("tag {tag} is missing"))
         };
         let (offsets, counts) = (list(offsets)?, list(counts)?);
-        self.stored.reserve_exact(offsets.len());
+        self.blocks.reserve_exact(offsets.len());
         for (index, (&at, &bytes)) in offsets.iter().zip(&counts).enumerate() {
             // GDAL leaves out tiles without data: offset 0, no bytes.
-            self.stored.push(at != 0 && bytes != 0);
             if at == 0 || bytes == 0 {
+                self.blocks.push(None);
                 continue;
             }
             if at.checked_add(bytes).is_none_or(|end| end > length) {
@@ -273,16 +298,16 @@ impl Image {
                 ));
             }
             let first_row = index as u64 / columns.div_ceil(width) * height;
-            let used = if self.tiled { height } else { height.min(rows - first_row) };
-            let claimed = width * used * self.sample.bytes() as u64;
-            if claimed > bytes.saturating_mul(ratio) {
+            let claimed = width * height.min(rows - first_row) * self.sample.bytes() as u64;
+            if claimed > bytes.saturating_mul(self.compression.ratio()) {
                 return Err(format!(
                     "strip or tile {index} is {bytes} bytes long, which cannot hold the {claimed} \
                      bytes it stands for"
                 ));
             }
+            self.blocks.push(Some(at as usize..(at + bytes) as usize));
         }
-        if !self.stored.contains(&true) {
+        if self.blocks.iter().all(Option::is_none) {
             return Err("none of its strips or tiles is stored".to_owned());
         }
         Ok(())
@@ -290,7 +315,7 @@ impl Image {
 
     /// Compression and predictor for reports.
     pub(super) fn compression_name(&self) -> String {
-        let name = compression(self.compression).map_or_else(|name| name, |(name, _)| name);
+        let name = self.compression.name();
         match self.predictor {
             1 => name.to_owned(),
             number => format!("{name} with predictor {number}"),

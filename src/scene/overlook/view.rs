@@ -20,8 +20,8 @@ const NEEDLES: f64 = 0.5;
 /// What it is lowered to.
 const LOWERED: f64 = 0.2;
 
-/// Exaggerations to choose from.
-const STEPS: [f64; 8] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0];
+/// Exaggerations to choose from: more would show trees and noise as needles.
+const STEPS: [f64; 7] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0];
 
 /// Field of view across the width, in degrees.
 pub(super) const FIELD: f64 = 45.0;
@@ -108,7 +108,7 @@ impl View {
         let base_depth = neat((top / 4.0).max(longer / 64.0));
 
         // From the south-south-west; over a long map from north to south, rather from its side.
-        let heading = if extent.y > 2.0 * extent.x { 30.0 } else { 60.0 };
+        let heading = if extent.y > 2.0 * extent.x { 25.0 } else { 70.0 };
         let position = overlooking(extent, -base_depth, top, heading, size);
         Ok(Self {
             unit_m,
@@ -240,7 +240,7 @@ mod tests {
         assert_eq!(of(0.08), 1.0);
         assert_eq!(of(0.05), 2.0);
         assert_eq!(of(0.02), 5.0);
-        assert_eq!(of(0.001), 50.0);
+        assert_eq!(of(0.001), 20.0);
         assert_eq!(exaggeration(2.0, false, &mut Vec::new()), 0.1);
     }
 }

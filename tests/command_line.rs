@@ -2,6 +2,8 @@
 
 #[path = "command_line/bad_input.rs"]
 mod bad_input;
+#[path = "command_line/height_files.rs"]
+mod height_files;
 #[path = "command_line/scenes.rs"]
 mod scenes;
 

@@ -175,7 +175,13 @@ fn text(file: &Described) -> String {
     if let Some(Extent { west, east, south, north }) = &file.extent {
         line(
             "nodes",
-            format!("from {west:.9} to {east:.9} east, from {south:.9} to {north:.9} north"),
+            format!(
+                "from {} to {} east, from {} to {} north",
+                coordinate(*west),
+                coordinate(*east),
+                coordinate(*south),
+                coordinate(*north)
+            ),
         );
     }
     let unit = match file.height_unit_m {
@@ -183,11 +189,21 @@ fn text(file: &Described) -> String {
         Some(unit) => format!(", in units of {} m", report::digits(unit)),
         None => ", unit not stated".to_owned(),
     };
-    line("heights", format!("{} to {}{unit}", file.lowest, file.highest));
+    line(
+        "heights",
+        format!(
+            "{} to {}{unit}",
+            height(f64::from(file.lowest), file.lowest),
+            height(f64::from(file.highest), file.highest)
+        ),
+    );
     let declared = match &file.nodata {
         Value::Null => "none declared".to_owned(),
         Value::String(word) => format!("declared as {word}"),
-        number => format!("declared as {}", number.as_f64().unwrap_or_default()),
+        number => {
+            let number = number.as_f64().unwrap_or_default();
+            format!("declared as {}", height(number, number))
+        }
     };
     line(
         "no data",
@@ -203,6 +219,20 @@ fn text(file: &Described) -> String {
     }
     line("render", file.render.clone());
     out.join("\n")
+}
+
+/// A coordinate with enough digits for a node, or few where it has many.
+fn coordinate(value: f64) -> String {
+    if value.abs() < 1e12 { format!("{value:.9}") } else { format!("{value:e}") }
+}
+
+/// A height as it is written in its own precision.
+fn height(size: f64, value: impl std::fmt::Display + std::fmt::LowerExp) -> String {
+    if size == 0.0 || (1e-4..1e12).contains(&size.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
 }
 
 fn cell(file: &Described) -> String {

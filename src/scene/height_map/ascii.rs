@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::georeference::PixelIs;
 use super::source::{Found, HeightFile, Storage};
 use super::{Georeference, MapError, check_size};
+use crate::scene::tree::shown;
 
 /// What marks a node without data where the header does not say.
 const DEFAULT_NODATA: f64 = -9999.0;
@@ -149,7 +150,7 @@ impl Header {
             if value.fract() != 0.0 || !(0.0..1e15).contains(&value) {
                 return Err(MapError::new(
                     name,
-                    format!("{key} is {value}"),
+                    format!("{key} is {}", shown(value)),
                     "give a whole number of nodes",
                 ));
             }
@@ -185,7 +186,7 @@ impl Header {
         if cell.min_element() <= 0.0 {
             return Err(MapError::new(
                 name,
-                format!("the header claims cells of {} x {}", cell.x, cell.y),
+                format!("the header claims cells of {} x {}", shown(cell.x), shown(cell.y)),
                 "give cells of a size above 0",
             ));
         }

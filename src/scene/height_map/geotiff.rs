@@ -13,6 +13,7 @@ mod unpack;
 
 use super::source::{Found, HeightFile, Storage};
 use super::{MapError, one_line};
+use crate::scene::tree::shown;
 use directory::{Directory, Tiff, tag};
 use image::Image;
 
@@ -94,7 +95,8 @@ fn nodata(
     };
     if !image.sample.can_be(value) {
         notes.push(format!(
-            "the no-data value {value} cannot occur among {} samples",
+            "the no-data value {} cannot occur among {} samples",
+            shown(value),
             image.sample.name()
         ));
     }
@@ -114,8 +116,9 @@ fn metadata(tiff: &Tiff<'_>, directory: &Directory, notes: &mut Vec<String>) {
             && value != neutral
         {
             notes.push(format!(
-                "left out: the {role} {value} of GDAL's metadata; samples are taken as stored, \
-                 surface.height can apply it"
+                "left out: the {role} {} of GDAL's metadata; samples are taken as stored, \
+                 surface.height can apply it",
+                shown(value)
             ));
         }
     }

@@ -125,7 +125,7 @@ fn suspicion(map: &HeightMap) -> Option<String> {
     let usual = low == -9999.0 || low == -32768.0 || low == -32767.0 || low < -1e30;
     usual.then(|| {
         format!(
-            "the lowest sample is {low}, which often marks nodes without data, but the file does \
+            "the lowest sample is {low:?}, which often marks nodes without data, but the file does \
              not declare it"
         )
     })

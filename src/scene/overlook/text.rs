@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use toml_edit::{DocumentMut, Item, Table, Value};
+use toml_edit::{DocumentMut, InlineTable, Item, Table, Value};
 
 use super::super::error::SceneError;
 use super::super::set;
@@ -104,7 +104,12 @@ pub(super) fn with_sets(text: &str, sets: &[String]) -> Result<String, SceneErro
             if depth == 1 {
                 replace_forms(item, keys[0], key, &value);
             }
-            item = child(item, key, depth == 0)
+            let missing = match depth {
+                _ if depth + 1 == keys.len() => Item::None,
+                0 => Item::Table(Table::new()),
+                _ => Item::Value(Value::InlineTable(InlineTable::new())),
+            };
+            item = child(item, key, missing)
                 .ok_or_else(|| error(path, format!("there is no place for `{key}`")))?;
         }
         *item = Item::Value(value);
@@ -126,18 +131,20 @@ fn replace_forms(table: &mut Item, of: &str, key: &str, value: &Value) {
     }
 }
 
-/// The place under a key or an index, made where there is none.
-fn child<'a>(item: &'a mut Item, key: &str, top: bool) -> Option<&'a mut Item> {
+/// The place under a key or an index; `missing` is put where there is none.
+fn child<'a>(item: &'a mut Item, key: &str, missing: Item) -> Option<&'a mut Item> {
     if let Ok(index) = key.parse::<usize>() {
-        if let Some(array) = item.as_array_mut() {
-            // Elements of an array are values, not items: an array of its own is made of it.
-            let _ = array.get(index)?;
-        }
         return item.get_mut(index);
     }
-    let table = item.as_table_like_mut()?;
-    if !table.contains_key(key) {
-        table.insert(key, if top { Item::Table(Table::new()) } else { Item::None });
+    match item {
+        Item::Table(table) => Some(table.entry(key).or_insert(missing)),
+        // An inline table holds values only, to be replaced.
+        Item::Value(Value::InlineTable(table)) => {
+            if !table.contains_key(key) {
+                table.insert(key, missing.into_value().unwrap_or_else(|_| Value::from(0)));
+            }
+            item.get_mut(key)
+        }
+        _ => None,
     }
-    table.get_mut(key)
 }

@@ -14,8 +14,11 @@ const FLAT: f64 = 0.08;
 /// What the relief is raised to, as a share of the longer side.
 const RAISED: f64 = 0.1;
 
-/// Relief above this share of the longer side is lowered, where the unit of heights is a guess.
-const NEEDLES: f64 = 0.5;
+/// Relief above this share of the longer side is lowered: no ground is so steep over a whole map.
+const NEEDLES: f64 = 2.0;
+
+/// The same where the size of a cell is a guess.
+const GUESSED_NEEDLES: f64 = 0.5;
 
 /// What it is lowered to.
 const LOWERED: f64 = 0.2;
@@ -76,10 +79,8 @@ impl View {
         }
         if f64::from(low).abs().max(f64::from(high).abs()) > LARGEST {
             return Err((
-                format!("its samples go from {low} to {high}, which are no heights"),
-                "declare the value that marks nodes without data, for example with gdal_edit \
-                 -a_nodata"
-                    .to_owned(),
+                format!("its samples go from {low:?} to {high:?}, which are no heights"),
+                "declare the no-data value, for example with gdal_edit -a_nodata".to_owned(),
             ));
         }
         let mut reasons = Vec::new();
@@ -127,11 +128,11 @@ impl View {
 
 /// The vertical exaggeration for a relief given as a share of the map's longer side.
 fn exaggeration(share: f64, known: bool, reasons: &mut Vec<String>) -> f64 {
-    if share > NEEDLES && !known {
+    if share > if known { NEEDLES } else { GUESSED_NEEDLES } {
         let lowered = neat(LOWERED / share);
         reasons.push(format!(
-            "heights of unknown unit on cells of unknown size would be needles: drawn {lowered} \
-             times as high (surface.height.scale)"
+            "the relief is {share:.1} times the map's longer side, as if units were not what they \
+             seem: heights are drawn {lowered} times as high (surface.height.scale)"
         ));
         return lowered;
     }
@@ -241,6 +242,7 @@ mod tests {
         assert_eq!(of(0.05), 2.0);
         assert_eq!(of(0.02), 5.0);
         assert_eq!(of(0.001), 20.0);
+        assert_eq!(exaggeration(4.0, true, &mut Vec::new()), 0.05);
         assert_eq!(exaggeration(2.0, false, &mut Vec::new()), 0.1);
     }
 }

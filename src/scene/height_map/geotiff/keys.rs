@@ -8,6 +8,7 @@ use super::super::MapError;
 use super::super::georeference::{Coordinates, Georeference, PixelIs};
 use super::directory::{Directory, Tiff, tag};
 use super::image::Image;
+use crate::scene::tree::shown;
 
 /// Numbers of the keys that are read.
 mod key {
@@ -188,7 +189,11 @@ pub(super) fn read(
     }
     // A hair beyond a pole is the half cell by which areas reach over.
     if coordinates == Coordinates::Degrees && (tie.y > 91.0 || far.y < -91.0) {
-        return Err(damaged(format!("it claims latitudes from {} to {} degrees", far.y, tie.y)));
+        return Err(damaged(format!(
+            "it claims latitudes from {} to {} degrees",
+            shown(far.y),
+            shown(tie.y)
+        )));
     }
     georeference.origin = Some(tie);
     georeference.cell = Some(cell);

@@ -40,16 +40,16 @@ static SEEDS: LazyLock<Vec<(&'static str, Vec<u8>)>> = LazyLock::new(|| {
     }
     let tile: Vec<u8> = (0..31 * 31).flat_map(|k: i16| (k * 7).to_be_bytes()).collect();
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    zip.start_file("N10E010.hgt", SimpleFileOptions::default()).unwrap();
-    zip.write_all(&tile).unwrap();
-    seeds.push(("seed.zip", zip.finish().unwrap().into_inner()));
+    zip.start_file("N10E010.hgt", SimpleFileOptions::default()).expect("memory");
+    zip.write_all(&tile).expect("memory");
+    seeds.push(("seed.zip", zip.finish().expect("memory").into_inner()));
     seeds.push(("N10E010.hgt", tile));
     let grid = "ncols 4\nnrows 3\nxllcorner 10\nyllcorner 40\ncellsize 0.01\nNODATA_value -1\n\
                 1 2 3 4\n5 6 7 8\n9 10 -1 12\n";
     seeds.push(("seed.asc", grid.as_bytes().to_vec()));
     let mut png = |image: image::DynamicImage| {
         let mut bytes = Cursor::new(Vec::new());
-        image.write_to(&mut bytes, ImageFormat::Png).unwrap();
+        image.write_to(&mut bytes, ImageFormat::Png).expect("memory");
         seeds.push(("seed.png", bytes.into_inner()));
     };
     png(ImageBuffer::from_fn(20, 20, |i, j| Luma([(i * j * 99) as u16])).into());

@@ -10,7 +10,7 @@ use super::{refused, tiff_file::TiffFile};
 
 fn png(image: impl Into<image::DynamicImage>) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
-    image.into().write_to(&mut bytes, ImageFormat::Png).unwrap();
+    image.into().write_to(&mut bytes, ImageFormat::Png).expect("memory");
     bytes.into_inner()
 }
 

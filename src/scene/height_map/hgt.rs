@@ -8,7 +8,7 @@ use zip::ZipArchive;
 
 use super::georeference::{Coordinates, PixelIs};
 use super::source::{Found, HeightFile, Storage};
-use super::{DEFLATE_RATIO, Georeference, MAX_SIDE, MapError, check_size, one_line};
+use super::{DEFLATE_RATIO, Georeference, MAX_NODES, MapError, check_size, one_line};
 
 /// What marks a node without data.
 const VOID: i16 = i16::MIN;
@@ -20,7 +20,7 @@ const MAX_ENTRIES: usize = 1000;
 fn side(bytes: usize) -> Option<usize> {
     let samples = bytes / 2;
     let side = samples.isqrt();
-    (bytes % 2 == 0 && side > 1 && side * side == samples).then_some(side)
+    (bytes.is_multiple_of(2) && side > 1 && side * side == samples).then_some(side)
 }
 
 /// Whether a file of this length may be taken for a tile without its name saying so.
@@ -144,7 +144,7 @@ pub(super) fn unzip(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
         ));
     };
     let entry = archive.by_name(tile).map_err(|error| damaged(&error.to_string()))?;
-    let limit = 2 * u64::from(MAX_SIDE / 2) * u64::from(MAX_SIDE / 2);
+    let limit = 2 * MAX_NODES;
     // What an entry claims to unpack to is checked against what its bytes can hold.
     let honest = (bytes.len() as u64).saturating_mul(DEFLATE_RATIO);
     if entry.size() > limit || entry.size() > honest {

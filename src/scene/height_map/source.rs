@@ -232,7 +232,8 @@ pub fn decode(bytes: &[u8], name: &str, encoding: Encoding) -> Result<HeightFile
 
 /// The message for a file of no known format, with a guess at what it is.
 fn unknown(bytes: &[u8], name: &str) -> MapError {
-    const FORMATS: &str = "give a PNG, GeoTIFF, SRTM .hgt (or a .zip of one) or ESRI ASCII grid";
+    const FORMATS: &str =
+        "give a greyscale PNG, a GeoTIFF, an SRTM .hgt (or a .zip of one) or an ESRI ASCII grid";
     let convert = "convert it, for example with gdal_translate IN OUT.tif";
     let (reason, remedy) = if bytes.is_empty() {
         ("the file is empty", FORMATS.to_owned())

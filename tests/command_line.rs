@@ -2,6 +2,8 @@
 
 #[path = "command_line/bad_input.rs"]
 mod bad_input;
+#[path = "command_line/height_files.rs"]
+mod height_files;
 #[path = "command_line/scenes.rs"]
 mod scenes;
 
@@ -96,7 +98,7 @@ fn without_a_command_it_says_what_to_try() {
 #[test]
 fn every_command_explains_itself() {
     let folder = Folder::new();
-    for command in ["render", "explain", "plan", "cycles", "compare", "scenes"] {
+    for command in ["render", "explain", "plan", "cycles", "compare", "scenes", "info"] {
         let text = folder.prints(&[command, "--help"]);
         assert!(text.contains(&format!("Example: terraline {command}")), "{text}");
     }

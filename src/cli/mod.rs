@@ -4,6 +4,7 @@
 mod compare;
 mod cycles;
 mod explain;
+mod info;
 mod plan;
 mod render;
 mod report;
@@ -30,6 +31,7 @@ enum Command {
     Cycles(cycles::Cycles),
     Compare(compare::Compare),
     Scenes(scenes::Scenes),
+    Info(info::Info),
 }
 
 /// Why a command stops.
@@ -49,8 +51,9 @@ impl<E: std::error::Error> From<E> for Stop {
 
 const THREE_THINGS: &str = "\
 Terraline emulates a dedicated raster processor for flight-simulator terrain.
-Three things to try:
+Things to try:
   terraline render -o frame.png                draw the built-in scene `overview`
+  terraline render dem.tif -o terrain.png      draw your own height file
   terraline explain overview --pixel 400,700   follow one pixel from set-up to colour
   terraline scenes valley > my.toml            a scene file to start from
 All commands: terraline --help";
@@ -69,6 +72,7 @@ pub fn main() -> ExitCode {
         Some(Command::Cycles(command)) => command.run(),
         Some(Command::Compare(command)) => command.run(),
         Some(Command::Scenes(command)) => command.run(),
+        Some(Command::Info(command)) => command.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -2,7 +2,8 @@
 
 mod summary;
 
-use std::path::PathBuf;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -24,7 +25,8 @@ use crate::word::real::Real;
 
 /// Draw one frame and say what it is worth and what it costs.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: terraline render flight -o flight.png --size 640x480 --repeat 9")]
+#[command(after_help = "Example: terraline render flight -o flight.png --size 640x480 --repeat 9
+Example: terraline render dem.tif -o terrain.png --scene-out terrain.toml")]
 pub struct Render {
     #[command(flatten)]
     scene: SceneArgs,
@@ -44,6 +46,10 @@ pub struct Render {
     /// Write every pixel's outcome, ground point, height, normal, steps and colour.
     #[arg(long, value_name = "OUT.npz")]
     buffers: Option<PathBuf>,
+
+    /// Write the scene that was chosen for a height file, to start from.
+    #[arg(long, value_name = "OUT.toml")]
+    scene_out: Option<PathBuf>,
 
     /// Draw the frame this many times and report minimum, median and maximum.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
@@ -131,20 +137,13 @@ impl InFixedWorld for Draw<'_> {
 
 impl Render {
     pub fn run(&self) -> Result<(), Stop> {
-        for path in [&self.output, &self.buffers].into_iter().flatten() {
+        for path in self.outputs() {
             sink::check_writable(path)?;
         }
-        if let (Some(output), Some(buffers)) = (&self.output, &self.buffers)
-            && std::path::absolute(output).ok() == std::path::absolute(buffers).ok()
-        {
-            return Err(Stop::BadInput(format!(
-                "--buffers {}: the picture goes to the same file; give two names",
-                buffers.display()
-            )));
-        }
+        self.check_names()?;
         let planned = self.scene.load()?;
-        let outputs = [&self.output, &self.buffers].into_iter().flatten().map(PathBuf::as_path);
-        keep_inputs(outputs, &self.scene.inputs(&planned))?;
+        keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
+        let scene_text = self.scene_text(&planned)?;
         let pixels = planned.plan.geometry.columns as usize * planned.plan.geometry.lines as usize;
         let buffers = self.buffers.is_some() || self.picture.needs_buffers();
         // The oracle's frame has buffers always, the picture of errors holds as much.
@@ -164,11 +163,58 @@ impl Render {
         if let Some(path) = &self.buffers {
             npz::write(path, &drawn.frame)?;
         }
+        if let (Some(path), Some(text)) = (&self.scene_out, &scene_text) {
+            sink::write_atomically(path, |file| file.write_all(text.as_bytes()))?;
+        }
         if self.json {
             return report::json("render", Some(&planned.scene.name), &summary);
         }
         report::print(&self.text(&planned, &summary));
         Ok(())
+    }
+
+    /// The files to write.
+    fn outputs(&self) -> impl Iterator<Item = &Path> {
+        [&self.output, &self.buffers, &self.scene_out].into_iter().flatten().map(PathBuf::as_path)
+    }
+
+    /// No file is written twice.
+    fn check_names(&self) -> Result<(), Stop> {
+        let named = [
+            ("--output", &self.output),
+            ("--buffers", &self.buffers),
+            ("--scene-out", &self.scene_out),
+        ];
+        let mut before: Vec<(&str, PathBuf)> = Vec::new();
+        for (option, path) in named {
+            let Some(path) = path else { continue };
+            let Ok(absolute) = std::path::absolute(path) else { continue };
+            if let Some((other, _)) = before.iter().find(|(_, other)| *other == absolute) {
+                return Err(Stop::BadInput(format!(
+                    "{option} {}: {other} writes the same file; give two names",
+                    path.display()
+                )));
+            }
+            before.push((option, absolute));
+        }
+        Ok(())
+    }
+
+    /// What `--scene-out` writes.
+    fn scene_text(&self, planned: &Planned) -> Result<Option<String>, Stop> {
+        let Some(path) = &self.scene_out else { return Ok(None) };
+        let refused =
+            |reason: &str| Err(Stop::BadInput(format!("--scene-out {}: {reason}", path.display())));
+        let Some(overlook) = &planned.overlook else {
+            return refused(
+                "a scene is written for height files only; copy the scene file, or print a \
+                 built-in scene with `terraline scenes NAME`",
+            );
+        };
+        if self.scene.has_formats() {
+            return refused("--format is not written; leave it out, or write [format] by hand");
+        }
+        Ok(Some(overlook.file(path)?))
     }
 
     fn draw(&self, planned: &Planned, buffers: bool) -> Result<Drawn, Stop> {
@@ -210,12 +256,7 @@ impl Render {
         }
     }
 
-    fn write_picture(
-        &self,
-        path: &std::path::Path,
-        planned: &Planned,
-        drawn: &Drawn,
-    ) -> Result<(), Stop> {
+    fn write_picture(&self, path: &Path, planned: &Planned, drawn: &Drawn) -> Result<(), Stop> {
         let frame = &drawn.frame;
         let painted = match self.picture {
             Picture::Error => {

@@ -7,13 +7,15 @@ use clap::Args;
 use super::Stop;
 use crate::engine::FixedWorld;
 use crate::plan::Plan;
+use crate::scene::overlook::{self, Overlook};
 use crate::scene::screen::{MAX_PIXELS, MAX_SIDE};
 use crate::scene::{self, FormatRequest, Overflow, Rounding, Scene, Surface};
 
 /// Scene and overrides.
 #[derive(Debug, Args)]
 pub struct SceneArgs {
-    /// A scene file (.toml) or the name of a built-in scene; `overview` if not given.
+    /// A scene file (.toml), a height file (GeoTIFF, .hgt, .asc, PNG) to look over, or the name of
+    /// a built-in scene; `overview` if not given.
     pub scene: Option<String>,
 
     /// Override a value of the scene, for example `--set camera.pitch=-20`; repeatable.
@@ -49,12 +51,24 @@ pub struct Planned {
     pub world: FixedWorld,
     /// How to name the scene and its overrides on a command line.
     pub invocation: String,
+    /// The scene that was chosen for a height file.
+    pub overlook: Option<Overlook>,
 }
 
 impl SceneArgs {
     /// Reads, overrides and plans the scene.
     pub fn load(&self) -> Result<Planned, Stop> {
-        let mut scene = scene::load(self.scene.as_deref(), &self.set)?;
+        let overlook = match self.scene.as_deref() {
+            Some(name) if scene::builtin::find(name).is_none() && overlook::applies(name) => {
+                let size = self.size.as_deref().map(parse_size).transpose()?;
+                Some(overlook::read(Path::new(name), &self.set, size)?)
+            }
+            _ => None,
+        };
+        let mut scene = match &overlook {
+            Some(overlook) => overlook.scene.clone(),
+            None => scene::load(self.scene.as_deref(), &self.set)?,
+        };
         for format in &self.format {
             scene.formats.push(parse_format(format)?);
         }
@@ -70,7 +84,12 @@ impl SceneArgs {
             .map_err(|error| located(error.to_string()))?;
         let world = FixedWorld::of(&scene, &plan).map_err(|error| located(error.to_string()))?;
         let invocation = self.invocation();
-        Ok(Planned { scene, plan, world, invocation })
+        Ok(Planned { scene, plan, world, invocation, overlook })
+    }
+
+    /// Whether registers have formats of their own, which no scene file of ours holds.
+    pub fn has_formats(&self) -> bool {
+        !self.format.is_empty()
     }
 
     /// Files that a planned scene was read from.
@@ -123,7 +142,7 @@ pub fn keep_inputs<'a>(
 }
 
 /// A word for a POSIX shell.
-fn quote(word: &str) -> String {
+pub fn quote(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_=./,:+@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()

@@ -7,7 +7,7 @@ use super::error::{SceneError, list, nearest};
 use super::file::{self, Document};
 use super::height_map::{HeightMap, MAX_NODES, MapError};
 use super::tree::shorten;
-use super::{Scene, fractal};
+use super::{Scene, fractal, overlook};
 
 /// A scene inside the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,13 +114,14 @@ fn side(name: &str, nodes: &str) -> Result<usize, MapError> {
     }
 }
 
-/// Loads a scene, with `--set` options applied: a built-in one by its name, or a file.
+/// Loads a scene, with `--set` options applied: a built-in one by its name, a file, or a height
+/// file, which gets a scene that looks over it.
 ///
 /// An argument with a path separator or the ending `.toml` is a file; without an argument the
 /// default scene is loaded.
 ///
 /// # Errors
-/// If there is no such scene, or as [`file::read`] and [`file::parse`].
+/// If there is no such scene, or as [`file::read`], [`file::parse`] and [`overlook::read`].
 pub fn load(name_or_path: Option<&str>, sets: &[String]) -> Result<Scene, SceneError> {
     let name = name_or_path.unwrap_or(SCENES[0].name);
     if let Some(scene) = find(name) {
@@ -133,6 +134,9 @@ pub fn load(name_or_path: Option<&str>, sets: &[String]) -> Result<Scene, SceneE
             },
             sets,
         );
+    }
+    if overlook::applies(name) {
+        return overlook::read(Path::new(name), sets, None).map(|overlook| overlook.scene);
     }
     let names = || SCENES.iter().map(|scene| scene.name);
     if name.contains(is_separator) || name.ends_with(".toml") {

@@ -87,6 +87,15 @@ pub fn read(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
 /// # Ok::<(), terraline::scene::SceneError>(())
 /// ```
 pub fn parse(document: &Document<'_>, sets: &[String]) -> Result<Scene, SceneError> {
+    parse_with(document, sets, None)
+}
+
+/// As [`parse`], with a map that was read before.
+pub(super) fn parse_with(
+    document: &Document<'_>,
+    sets: &[String],
+    known: Option<&surface::ReadMap>,
+) -> Result<Scene, SceneError> {
     let table = DeTable::parse(document.text).map_err(|error| syntax(document, &error))?;
     let mut root = Node::document(table);
     let options = set::apply(&mut root, sets)?;
@@ -105,7 +114,7 @@ pub fn parse(document: &Document<'_>, sets: &[String]) -> Result<Scene, SceneErr
         machine: machine(&scene.table("machine", &keys::MACHINE)?)?,
         formats: formats(&scene)?,
         // Last, because the map may be large: every other mistake is found before it is read.
-        surface: surface::read(&scene, document.folder)?,
+        surface: surface::read(&scene, surface::Maps { folder: document.folder, known })?,
     })
 }
 

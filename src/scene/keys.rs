@@ -29,7 +29,7 @@ pub(super) const MOUNT: Keys = Keys { table: "screen.mount", keys: &["heading", 
 
 pub(super) const TERRAIN: Keys = Keys {
     table: "surface",
-    keys: &["kind", "map", "cell", "height", "outside", "nodata", "base_depth"],
+    keys: &["kind", "map", "encoding", "cell", "height", "outside", "nodata", "base_depth"],
 };
 
 pub(super) const HEIGHT: Keys = Keys { table: "surface.height", keys: &["offset", "scale"] };

@@ -24,6 +24,7 @@ mod fractal;
 pub mod height_map;
 mod keys;
 mod nodata;
+pub mod overlook;
 pub mod screen;
 pub mod set;
 mod surface;
@@ -36,7 +37,7 @@ use glam::{DVec2, DVec3};
 pub use crate::word::{Overflow, Rounding};
 pub use builtin::load;
 pub use error::SceneError;
-pub use height_map::HeightMap;
+pub use height_map::{Encoding, HeightFile, HeightMap};
 
 /// A complete scene: camera, screens, one surface, and the machine that draws it.
 #[derive(Clone, Debug)]

@@ -33,7 +33,7 @@ pub(super) fn apply(root: &mut Node, options: &[String]) -> Result<Vec<String>, 
     Ok(paths)
 }
 
-fn split(option: &str) -> Result<(&str, &str), SceneError> {
+pub(super) fn split(option: &str) -> Result<(&str, &str), SceneError> {
     let error = |reason: String| SceneError::Override {
         option: shorten(option),
         reason,

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::error::{SceneError, nearest};
 use super::field::{FARTHEST, Field, Fields, is_length};
-use super::height_map::MapError;
+use super::height_map::{Encoding, MapError, source};
 use super::keys::{self, Keys};
 use super::nodata::apply;
 use super::tree::shown;
@@ -21,9 +21,26 @@ enum Kind {
     Sphere,
 }
 
-pub(super) fn read(scene: &Fields<'_>, folder: &Path) -> Result<Surface, SceneError> {
+/// A map that is in memory already: the scene that names it need not read it again.
+#[derive(Clone, Debug)]
+pub(super) struct ReadMap {
+    /// As the scene names it.
+    pub(super) source: String,
+    pub(super) encoding: Encoding,
+    pub(super) map: Arc<HeightMap>,
+}
+
+/// Where maps come from.
+#[derive(Clone, Copy)]
+pub(super) struct Maps<'a> {
+    /// Where relative paths start.
+    pub(super) folder: &'a Path,
+    pub(super) known: Option<&'a ReadMap>,
+}
+
+pub(super) fn read(scene: &Fields<'_>, maps: Maps<'_>) -> Result<Surface, SceneError> {
     let Some(field) = scene.get("surface") else {
-        return terrain(&scene.empty("surface"), folder);
+        return terrain(&scene.empty("surface"), maps);
     };
     let tables = field.tables()?;
     if let Some(second) = tables.get(1) {
@@ -31,7 +48,7 @@ pub(super) fn read(scene: &Fields<'_>, folder: &Path) -> Result<Surface, SceneEr
             .error("a scene with more than one surface is not built yet", "keep one [[surface]]"));
     }
     let Some(field) = tables.first() else {
-        return terrain(&scene.empty("surface"), folder);
+        return terrain(&scene.empty("surface"), maps);
     };
     let table = field.open()?;
     let kind = table.get("kind");
@@ -53,7 +70,7 @@ pub(super) fn read(scene: &Fields<'_>, folder: &Path) -> Result<Surface, SceneEr
     match chosen {
         Kind::Terrain => {
             check(&keys::TERRAIN, &keys::PLANE)?;
-            terrain(&table, folder)
+            terrain(&table, maps)
         }
         Kind::Plane => {
             check(&keys::PLANE, &keys::TERRAIN)?;
@@ -78,7 +95,7 @@ fn plane(table: &Fields<'_>) -> Result<Surface, SceneError> {
     Ok(Surface::Plane(Plane { normal: normal / length, distance: distance / length, checker }))
 }
 
-fn terrain(table: &Fields<'_>, folder: &Path) -> Result<Surface, SceneError> {
+fn terrain(table: &Fields<'_>, maps: Maps<'_>) -> Result<Surface, SceneError> {
     let cell = table.read("cell", None, |cell| {
         cell.pair("[x, z], two lengths above 0 (from 1e-9 to 1e9)", is_length).map(Some)
     })?;
@@ -99,7 +116,9 @@ fn terrain(table: &Fields<'_>, folder: &Path) -> Result<Surface, SceneError> {
         }
         Ok(source.to_owned())
     })?;
-    let map = load(&source, folder).map_err(|error| match table.get("map") {
+    let encoding =
+        table.read("encoding", Encoding::Stored, |encoding| encoding.choice(&Encoding::NAMES))?;
+    let map = load(&source, encoding, maps).map_err(|error| match table.get("map") {
         Some(field) => {
             SceneError::Map { place: field.place(), field: field.path, source: Box::new(error) }
         }
@@ -112,7 +131,7 @@ fn terrain(table: &Fields<'_>, folder: &Path) -> Result<Surface, SceneError> {
     Ok(Surface::Terrain(terrain))
 }
 
-const MAP: &str = "the path of a greyscale PNG, \"builtin:jacksboro\", or \"builtin:jacksboro@N\" with N x N nodes";
+const MAP: &str = "the path of a height file, \"builtin:jacksboro\", or \"builtin:jacksboro@N\" with N x N nodes";
 
 fn nodata(field: &Field<'_>) -> Result<NoData, SceneError> {
     const EXPECTED: &str = "\"hole\", \"nearest\" or a number";
@@ -136,16 +155,28 @@ fn default_cell(source: &str, map: &HeightMap) -> DVec2 {
 
 const BUILTIN: &str = "builtin:";
 
-fn load(source: &str, folder: &Path) -> Result<Arc<HeightMap>, MapError> {
+fn load(source: &str, encoding: Encoding, maps: Maps<'_>) -> Result<Arc<HeightMap>, MapError> {
+    if let Some(known) = maps.known
+        && (known.source.as_str(), known.encoding) == (source, encoding)
+    {
+        return Ok(Arc::clone(&known.map));
+    }
     let Some(name) = source.strip_prefix(BUILTIN) else {
-        return HeightMap::read(&folder.join(source)).map(Arc::new);
+        return source::read(&maps.folder.join(source), encoding).map(|file| Arc::new(file.map));
     };
+    if encoding != Encoding::Stored {
+        return Err(MapError::new(
+            source,
+            "maps of the program hold heights as they are",
+            "leave surface.encoding out",
+        ));
+    }
     builtin::map(name).unwrap_or_else(|| {
         let guess = nearest(name, builtin::MAPS).unwrap_or(builtin::MAPS[0]);
         Err(MapError::new(
             source,
             "the program has no such map",
-            format!("use \"builtin:{guess}\" or the path of a PNG"),
+            format!("use \"builtin:{guess}\" or the path of a height file"),
         ))
     })
 }

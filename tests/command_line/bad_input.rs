@@ -87,6 +87,45 @@ fn maps_that_cannot_be_read() {
 }
 
 #[test]
+fn height_files_that_are_none() {
+    let folder = Folder::new();
+    folder.write("text.tif", "a text, whatever its name says\n");
+    folder.write("circle.tif", b"II\x2A\0\x08\0\0\0\0\0\x08\0\0\0");
+    folder.write("grid.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3,5 4\n");
+    folder.write("row.asc", "ncols 3\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n");
+    folder.write(
+        "marks.asc",
+        "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 -3e38 4\n",
+    );
+    folder.write("sound.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4\n");
+    for (file, words) in [
+        ("missing.tif", &["missing.tif", "no such file", "built-in"][..]),
+        ("text.tif", &["not a TIFF"]),
+        ("circle.tif", &["circle"]),
+        ("grid.asc", &["line 6", "decimal comma"]),
+        ("row.asc", &["3 x 1"]),
+        ("marks.asc", &["-3e38", "no-data"]),
+        ("nowhere/dem.hgt", &["no such file"]),
+    ] {
+        render(&folder, &[file], words);
+        if !file.starts_with("row") && !file.starts_with("marks") {
+            assert!(refused(&folder, &["info", "sound.asc", file]).contains(file));
+        }
+    }
+    let scene_out = ["--scene-out", "scene.toml"];
+    render(&folder, &[&["flight"], &scene_out[..]].concat(), &["--scene-out", "scenes NAME"]);
+    let format = ["sound.asc", "--format", "ground=24.8"];
+    render(&folder, &[&format[..], &scene_out].concat(), &["--format"]);
+    render(&folder, &["sound.asc", "--scene-out", "out.png"], &["--scene-out", "same file"]);
+    render(&folder, &["sound.asc", "--scene-out", "sound.asc"], &["sound.asc", "overwritten"]);
+    render(&folder, &["sound.asc", "--scene-out", "no/scene.toml"], &["no folder"]);
+    render(&folder, &["sound.asc", "--set", "surface.encoding=terrain-rgb"], &["PNG files"]);
+    render(&folder, &["sound.asc", "--set", "surface.encoding=rgb"], &["terrain-rgb"]);
+    render(&folder, &["sound.asc", "--set", "camera.pich=3"], &["camera.pitch"]);
+    render(&folder, &["sound.asc", "--size", "0x3"], &["--size"]);
+}
+
+#[test]
 fn values_that_no_scene_can_have() {
     let folder = Folder::new();
     for (option, word) in [

@@ -69,12 +69,13 @@ pub(super) struct Summary {
     overflows: Vec<Located>,
     errors: Option<ErrorReport>,
     worst: Option<Worst>,
+    chosen: Vec<String>,
 }
 
 impl Render {
     /// Measures a drawn frame.
     pub(super) fn summarise(&self, planned: &Planned, drawn: &Drawn) -> Result<Summary, Stop> {
-        let Planned { scene, plan, world, invocation } = planned;
+        let Planned { scene, plan, world, invocation, overlook } = planned;
         let count = |hit| drawn.frame.hit.iter().filter(|h| **h == hit).count();
         let mut times: Vec<f64> = drawn.times.iter().map(|t| t.as_secs_f64() * 1e3).collect();
         times.sort_by(f64::total_cmp);
@@ -146,6 +147,7 @@ impl Render {
                 .collect(),
             errors,
             worst,
+            chosen: overlook.as_ref().map_or_else(Vec::new, |overlook| overlook.chosen.clone()),
         })
     }
 
@@ -232,7 +234,10 @@ impl Render {
                 worst.explain
             ));
         }
-        for path in [&self.output, &self.buffers].into_iter().flatten() {
+        for chosen in planned.overlook.iter().flat_map(|overlook| &overlook.chosen) {
+            out.push(format!("  chosen    {chosen}"));
+        }
+        for path in self.outputs() {
             out.push(format!("  wrote     {}", path.display()));
         }
         out.join("\n")

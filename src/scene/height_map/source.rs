@@ -1,0 +1,260 @@
+//! A height file of any format: which format it is, and what is known beside the samples.
+
+use std::path::Path;
+
+use super::{
+    Georeference, HeightMap, MAX_NODES, MapError, ascii, file_reason, geotiff, hgt, png,
+    read_limited,
+};
+
+/// The largest file worth reading: text needs some twenty bytes a node, `float64` eight.
+const MAX_FILE_BYTES: u64 = 24 * MAX_NODES;
+
+/// How the samples of a file stand for heights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Encoding {
+    /// A sample is a height.
+    #[default]
+    Stored,
+    /// Colour PNG: `-10000 + (R·65536 + G·256 + B)/10` metres.
+    TerrainRgb,
+    /// Colour PNG: `R·256 + G + B/256 - 32768` metres.
+    Terrarium,
+}
+
+impl Encoding {
+    /// Names in scene files and on the command line.
+    pub const NAMES: [(&'static str, Self); 3] = [
+        ("stored", Self::Stored),
+        ("terrain-rgb", Self::TerrainRgb),
+        ("terrarium", Self::Terrarium),
+    ];
+
+    /// Name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stored => "stored",
+            Self::TerrainRgb => "terrain-rgb",
+            Self::Terrarium => "terrarium",
+        }
+    }
+}
+
+/// How a file stores its samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Storage {
+    /// Name of the format.
+    pub format: &'static str,
+    /// Type of a sample.
+    pub sample: &'static str,
+    /// Compression and predictor, where the format has a choice.
+    pub compression: Option<String>,
+    /// Strips or tiles, where the format has a choice.
+    pub layout: Option<String>,
+    /// Byte order, where the format has a choice.
+    pub byte_order: Option<&'static str>,
+}
+
+/// A height file that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightFile {
+    /// The samples, row 0 north; NaN without data.
+    pub map: HeightMap,
+    /// Where they lie on the Earth, as far as the file says.
+    pub georeference: Georeference,
+    /// How they are stored.
+    pub storage: Storage,
+    /// The value that marks nodes without data, if the file declares one.
+    pub nodata: Option<f64>,
+    /// What was assumed, changed or left out, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// What a reader has found, before it is known to be a map.
+pub(super) struct Found {
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    pub(super) samples: Vec<f32>,
+    pub(super) storage: Storage,
+    pub(super) georeference: Georeference,
+}
+
+impl Found {
+    /// Makes infinite samples nodes without data, and refuses a map of nothing else.
+    pub(super) fn finish(
+        mut self,
+        name: &str,
+        nodata: Option<f64>,
+        mut notes: Vec<String>,
+    ) -> Result<HeightFile, MapError> {
+        let mut infinite = 0_usize;
+        let mut data = false;
+        for sample in &mut self.samples {
+            if sample.is_infinite() {
+                infinite += 1;
+                *sample = f32::NAN;
+            }
+            data |= !sample.is_nan();
+        }
+        if !data {
+            return Err(MapError::new(
+                name,
+                "no node has data",
+                "give a file with heights, or correct its no-data value",
+            ));
+        }
+        if infinite > 0 {
+            notes.push(format!("{infinite} infinite samples count as nodes without data"));
+        }
+        let map = HeightMap::new(self.columns, self.rows, self.samples);
+        notes.extend(suspicion(&map));
+        Ok(HeightFile {
+            map,
+            georeference: self.georeference,
+            storage: self.storage,
+            nodata,
+            notes,
+        })
+    }
+}
+
+/// A lowest sample that usually means "no data", where the file does not declare it.
+fn suspicion(map: &HeightMap) -> Option<String> {
+    let low = map.range().0;
+    // No ground lies 12 km under the sea, and the usual marks all lie below that but -9999.
+    let usual = low == -9999.0 || low == -32768.0 || low == -32767.0 || low < -1e30;
+    usual.then(|| {
+        format!(
+            "the lowest sample is {low:?}, which often marks nodes without data, but the file does \
+             not declare it"
+        )
+    })
+}
+
+/// Formats told apart by their first bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Png,
+    Tiff,
+    Zip,
+    Ascii,
+    Hgt,
+}
+
+fn format(bytes: &[u8], name: &str) -> Option<Format> {
+    let begins = |magic: &[u8]| bytes.starts_with(magic);
+    if begins(b"\x89PNG") {
+        Some(Format::Png)
+    } else if geotiff::MAGIC.iter().any(|magic| begins(magic)) {
+        Some(Format::Tiff)
+    } else if begins(b"PK\x03\x04") {
+        Some(Format::Zip)
+    } else if ascii::begins(bytes) {
+        Some(Format::Ascii)
+    } else if has_ending(name, "hgt") || hgt::usual_size(bytes.len()) {
+        Some(Format::Hgt)
+    } else {
+        None
+    }
+}
+
+/// Whether the name ends so, in capitals or not.
+fn has_ending(name: &str, ending: &str) -> bool {
+    Path::new(name).extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
+}
+
+/// Whether a path is a height file by its ending, or else by the first bytes of the file.
+///
+/// A file that cannot be opened is judged by its ending alone.
+pub fn is_height_file(path: &Path) -> bool {
+    use std::io::Read as _;
+    const ENDINGS: [&str; 8] = ["tif", "tiff", "gtiff", "hgt", "zip", "asc", "png", "dem"];
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if ENDINGS.contains(&ending.as_str()) {
+        return true;
+    }
+    // A pipe or a device is never opened: it may not answer.
+    if ending == "toml" || !path.is_file() {
+        return false;
+    }
+    let mut head = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(64).read_to_end(&mut head));
+    read.is_ok() && format(&head, "").is_some()
+}
+
+/// Reads a height file; the first bytes decide which format it is, not its name.
+///
+/// # Errors
+/// If the file is missing, is of none of the formats, is damaged or cut short, claims more nodes
+/// than [`super::MAX_SIDE`] in one direction, than [`MAX_NODES`] in all or than it can hold, or
+/// has no data at all. There is no partial map.
+pub fn read(path: &Path, encoding: Encoding) -> Result<HeightFile, MapError> {
+    let name = path.display().to_string();
+    let bytes = read_limited(path, MAX_FILE_BYTES).map_err(|error| {
+        let remedy = match error.kind() {
+            std::io::ErrorKind::NotFound => {
+                "check the name; a relative path starts at the folder of the scene file, and \
+                 builtin:jacksboro is always there"
+            }
+            _ => "give a height file that can be read",
+        };
+        MapError::new(&name, file_reason(&error), remedy)
+    })?;
+    decode(&bytes, &name, encoding)
+}
+
+/// Decodes a height file held in memory; `name` is what messages call it, and what an `.hgt` file
+/// has its place from.
+///
+/// # Errors
+/// As [`read`], but for the file itself.
+pub fn decode(bytes: &[u8], name: &str, encoding: Encoding) -> Result<HeightFile, MapError> {
+    let found = format(bytes, name);
+    if encoding != Encoding::Stored && found != Some(Format::Png) {
+        return Err(MapError::new(
+            name,
+            format!(
+                "heights packed as \"{}\" are kept in PNG files, and this is none",
+                encoding.name()
+            ),
+            "leave the encoding out",
+        ));
+    }
+    match found {
+        Some(Format::Png) => png::decode(bytes, name, encoding),
+        Some(Format::Tiff) => geotiff::decode(bytes, name),
+        Some(Format::Zip) => hgt::unzip(bytes, name),
+        Some(Format::Ascii) => ascii::decode(bytes, name),
+        Some(Format::Hgt) => hgt::decode(bytes, name),
+        None => Err(unknown(bytes, name)),
+    }
+}
+
+/// The message for a file of no known format, with a guess at what it is.
+fn unknown(bytes: &[u8], name: &str) -> MapError {
+    const FORMATS: &str =
+        "give a greyscale PNG, a GeoTIFF, an SRTM .hgt (or a .zip of one) or an ESRI ASCII grid";
+    let convert = "convert it, for example with gdal_translate IN OUT.tif";
+    let (reason, remedy) = if bytes.is_empty() {
+        ("the file is empty", FORMATS.to_owned())
+    } else if bytes.starts_with(b"\x1f\x8b") {
+        ("this is a gzip file", format!("unpack it with gunzip and {FORMATS}"))
+    } else if bytes.starts_with(b"\xff\xd8\xff") {
+        ("this is a JPEG picture, which holds no heights", FORMATS.to_owned())
+    } else if bytes.starts_with(b"\x89HDF") {
+        ("this is an HDF5 or netCDF file", convert.to_owned())
+    } else if bytes.starts_with(b"CDF") {
+        ("this is a netCDF file", convert.to_owned())
+    } else if has_ending(name, "dem") {
+        ("this looks like a USGS DEM", convert.to_owned())
+    } else if has_ending(name, "png") {
+        ("this is not a PNG file, whatever its name says", FORMATS.to_owned())
+    } else if has_ending(name, "tif") || has_ending(name, "tiff") {
+        ("this is not a TIFF file, whatever its name says", FORMATS.to_owned())
+    } else if has_ending(name, "asc") {
+        ("this does not begin as an ESRI ASCII grid does, with ncols", FORMATS.to_owned())
+    } else {
+        ("this is a file of no known format", FORMATS.to_owned())
+    };
+    MapError::new(name, reason, remedy)
+}

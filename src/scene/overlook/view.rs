@@ -1,0 +1,248 @@
+//! What the scene shows and from where: scale, exaggeration, camera.
+
+use glam::{DVec2, DVec3};
+
+use super::super::height_map::Georeference;
+use super::{HeightMap, cells};
+
+/// Metres of a cell where nothing is known.
+const ASSUMED_CELL_M: f64 = 30.0;
+
+/// Relief below this share of the map's longer side looks flat.
+const FLAT: f64 = 0.08;
+
+/// What the relief is raised to, as a share of the longer side.
+const RAISED: f64 = 0.1;
+
+/// Relief above this share of the longer side is lowered: no ground is so steep over a whole map.
+const NEEDLES: f64 = 2.0;
+
+/// The same where the size of a cell is a guess.
+const GUESSED_NEEDLES: f64 = 0.5;
+
+/// What it is lowered to.
+const LOWERED: f64 = 0.2;
+
+/// Exaggerations to choose from: more would show trees and noise as needles.
+const STEPS: [f64; 7] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0];
+
+/// Field of view across the width, in degrees.
+pub(super) const FIELD: f64 = 45.0;
+
+/// Share of the screen that the map may fill.
+const FILLED: f64 = 0.94;
+
+/// Degrees down. With [`FIELD`], no ray of a screen that is wider than high looks up.
+pub(super) const PITCH: f64 = -35.0;
+
+/// A sample beyond this is no height.
+const LARGEST: f64 = 1e9;
+
+/// The choices for one map; lengths in scene units.
+#[derive(Clone, Debug)]
+pub(super) struct View {
+    pub(super) unit_m: f64,
+    pub(super) cell: DVec2,
+    /// The lowest sample.
+    pub(super) offset: f32,
+    /// Scene units per unit of sample.
+    pub(super) scale: f64,
+    pub(super) exaggeration: f64,
+    pub(super) base_depth: f64,
+    pub(super) position: DVec3,
+    /// In degrees.
+    pub(super) heading: f64,
+    pub(super) size: (u32, u32),
+    /// What was chosen, a sentence each.
+    pub(super) reasons: Vec<String>,
+}
+
+/// A number of few digits, so that the scene file reads well.
+fn neat(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+impl View {
+    /// Chooses; an error is a reason and a remedy.
+    pub(super) fn new(
+        map: &HeightMap,
+        georeference: &Georeference,
+        size: (u32, u32),
+    ) -> Result<Self, (String, String)> {
+        let (columns, rows) = (map.columns(), map.rows());
+        let (low, high) = map.range();
+        if columns < 2 || rows < 2 {
+            return Err((
+                format!("a map of {columns} x {rows} nodes encloses no ground"),
+                "give a map of at least 2 x 2 nodes".to_owned(),
+            ));
+        }
+        if f64::from(low).abs().max(f64::from(high).abs()) > LARGEST {
+            return Err((
+                format!("its samples go from {low:?} to {high:?}, which are no heights"),
+                "declare the no-data value, for example with gdal_edit -a_nodata".to_owned(),
+            ));
+        }
+        let mut reasons = Vec::new();
+        let known = georeference.cell_m(columns, rows);
+        let cell_m = known.unwrap_or(DVec2::splat(ASSUMED_CELL_M));
+        if known.is_none() {
+            reasons.push(format!(
+                "the size of a cell is not known: {ASSUMED_CELL_M} m x {ASSUMED_CELL_M} m are \
+                 assumed (surface.cell, unit_m)"
+            ));
+        }
+        let height_unit_m = georeference.height_unit_m.unwrap_or(1.0);
+        if georeference.height_unit_m.is_none() {
+            reasons.push("the unit of heights is not stated: metres are assumed".to_owned());
+        }
+
+        let unit_m = neat((cell_m.x * cell_m.y).sqrt());
+        let cell = DVec2::new(neat(cell_m.x / unit_m), neat(cell_m.y / unit_m));
+        let (across, down) = cells(map);
+        let extent = DVec2::new(across * cell.x, down * cell.y);
+        let longer = extent.max_element();
+        let relief = (f64::from(high) - f64::from(low)) * height_unit_m / unit_m;
+        let exaggeration = exaggeration(relief / longer, known.is_some(), &mut reasons);
+        let scale = neat(height_unit_m * exaggeration / unit_m).max(1e-9);
+        let top = (f64::from(high) - f64::from(low)) * scale;
+        let base_depth = neat((top / 4.0).max(longer / 64.0));
+
+        // From the south-south-west; over a long map from north to south, rather from its side.
+        let heading = if extent.y > 2.0 * extent.x { 25.0 } else { 70.0 };
+        let position = overlooking(extent, -base_depth, top, heading, size);
+        Ok(Self {
+            unit_m,
+            cell,
+            offset: low,
+            scale,
+            exaggeration,
+            base_depth,
+            position,
+            heading,
+            size,
+            reasons,
+        })
+    }
+}
+
+/// The vertical exaggeration for a relief given as a share of the map's longer side.
+fn exaggeration(share: f64, known: bool, reasons: &mut Vec<String>) -> f64 {
+    if share > if known { NEEDLES } else { GUESSED_NEEDLES } {
+        let lowered = neat(LOWERED / share);
+        reasons.push(format!(
+            "the relief is {share:.1} times the map's longer side, as if units were not what they \
+             seem: heights are drawn {lowered} times as high (surface.height.scale)"
+        ));
+        return lowered;
+    }
+    if share >= FLAT || share <= 0.0 {
+        return 1.0;
+    }
+    let wanted = RAISED / share;
+    let distance = |step: f64| (step / wanted).ln().abs();
+    let chosen = STEPS.into_iter().min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+    let chosen = chosen.unwrap_or(1.0);
+    if chosen != 1.0 {
+        reasons.push(format!(
+            "the relief is {:.2} % of the map's longer side: heights are drawn {chosen} times life \
+             size (surface.height.scale)",
+            100.0 * share
+        ));
+    }
+    chosen
+}
+
+/// Where a camera sees a box over `extent`, from `bottom` to `top`, as large as the screen allows.
+///
+/// With the camera's axes u, v and w, a corner p is seen if |p·w - a| ≤ k (p·u + D) for a camera
+/// at a w + b v - D u, and likewise for v. Of A = max(p·w - k p·u) and B = max(-p·w - k p·u), the
+/// nearest camera has a = (A - B)/2 and D = (A + B)/2k; the larger D of the two axes serves both.
+fn overlooking(extent: DVec2, bottom: f64, top: f64, heading: f64, size: (u32, u32)) -> DVec3 {
+    let (sin, cos) = (libm::sin(heading.to_radians()), libm::cos(heading.to_radians()));
+    let (dip, flat) = (libm::sin(PITCH.to_radians()), libm::cos(PITCH.to_radians()));
+    let u = DVec3::new(cos * flat, dip, -sin * flat);
+    let v = DVec3::new(-cos * dip, flat, sin * dip);
+    let w = DVec3::new(sin, 0.0, cos);
+    let across = libm::tan(FIELD.to_radians() / 2.0) * FILLED;
+    let up = across * f64::from(size.1) / f64::from(size.0);
+    let fit = |axis: DVec3, k: f64| {
+        let mut most = [f64::NEG_INFINITY; 2];
+        for x in [0.0, extent.x] {
+            for y in [bottom, top] {
+                for z in [0.0, extent.y] {
+                    let p = DVec3::new(x, y, z);
+                    most[0] = most[0].max(p.dot(axis) - k * p.dot(u));
+                    most[1] = most[1].max(-p.dot(axis) - k * p.dot(u));
+                }
+            }
+        }
+        ((most[0] - most[1]) / 2.0, (most[0] + most[1]) / (2.0 * k))
+    };
+    let ((a, d_w), (b, d_v)) = (fit(w, across), fit(v, up));
+    let mut distance = d_w.max(d_v);
+    let place = |distance: f64| w * a + v * b - u * distance;
+    // On a very high screen the box may fit from below its top: step back, which is up.
+    let least = top + (top - bottom) / 8.0;
+    if place(distance).y < least {
+        distance += (least - place(distance).y) / -u.y;
+    }
+    let position = place(distance);
+    DVec3::new(neat(position.x), neat(position.y), neat(position.z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn view(columns: usize, rows: usize, relief: f32, size: (u32, u32)) -> View {
+        let samples = (0..columns * rows).map(|k| if k == 3 { relief } else { 0.0 }).collect();
+        let map = HeightMap::new(columns, rows, samples);
+        View::new(&map, &Georeference::unknown(), size).unwrap()
+    }
+
+    #[test]
+    fn every_corner_is_on_the_screen_and_the_eye_above() {
+        for (columns, rows) in [(2, 2), (344, 344), (16384, 2), (2, 16384), (40, 1000)] {
+            for relief in [0.0, 1.0, 3000.0] {
+                for size in [(1280, 800), (640, 640), (200, 900), (2000, 100)] {
+                    let view = view(columns, rows, relief, size);
+                    let top = f64::from(relief) * view.scale;
+                    assert!(view.position.y > top, "{view:?}");
+                    let psi = view.heading.to_radians();
+                    let theta = PITCH.to_radians();
+                    for (x, z) in [(0, 0), (columns - 1, 0), (0, rows - 1), (columns - 1, rows - 1)]
+                    {
+                        for y in [-view.base_depth, top] {
+                            let corner =
+                                DVec3::new(x as f64 * view.cell.x, y, z as f64 * view.cell.y);
+                            let p = corner - view.position;
+                            // Turned back: first about y, then about z.
+                            let forward = p.x * psi.cos() - p.z * psi.sin();
+                            let right = p.x * psi.sin() + p.z * psi.cos();
+                            let depth = forward * theta.cos() + p.y * theta.sin();
+                            let up = p.y * theta.cos() - forward * theta.sin();
+                            let half = (FIELD / 2.0).to_radians().tan() * depth;
+                            assert!(depth > 0.0 && right.abs() < half, "{view:?}");
+                            let high = half * f64::from(size.1) / f64::from(size.0);
+                            assert!(up.abs() < high, "{view:?}: {up} of {high}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn exaggeration_grows_with_flatness() {
+        let of = |share| exaggeration(share, true, &mut Vec::new());
+        assert_eq!(of(0.0), 1.0);
+        assert_eq!(of(0.9), 1.0);
+        assert_eq!(of(0.08), 1.0);
+        assert_eq!(of(0.05), 2.0);
+        assert_eq!(of(0.02), 5.0);
+        assert_eq!(of(0.001), 20.0);
+        assert_eq!(exaggeration(4.0, true, &mut Vec::new()), 0.05);
+        assert_eq!(exaggeration(2.0, false, &mut Vec::new()), 0.1);
+    }
+}

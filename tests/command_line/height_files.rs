@@ -1,0 +1,158 @@
+//! Height files on the command line: `info`, and scenes chosen for files that have none.
+
+use std::fmt::Write as _;
+
+use super::{Folder, write_map};
+
+const SKY: [u8; 3] = [186, 208, 230];
+
+/// An ESRI ASCII grid with cells of `cell` from `origin` on.
+fn grid(
+    columns: usize,
+    rows: usize,
+    cell: f64,
+    origin: f64,
+    height: impl Fn(usize, usize) -> f64,
+) -> String {
+    let mut text = format!(
+        "ncols {columns}\nnrows {rows}\nxllcorner {origin}\nyllcorner {origin}\ncellsize {cell}\n"
+    );
+    for j in 0..rows {
+        for i in 0..columns {
+            let _ = write!(text, "{} ", height(i, j));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn hills(i: usize, j: usize) -> f64 {
+    let (x, z) = (i as f64 / 9.0, j as f64 / 7.0);
+    500.0 + 80.0 * (x.sin() + z.cos()) + 30.0 * (x * z).sin()
+}
+
+#[test]
+fn any_map_is_whole_on_the_screen() {
+    let folder = Folder::new();
+    for (name, text) in [
+        ("square.asc", grid(60, 60, 30.0, 500_000.0, hills)),
+        ("tiny.asc", grid(2, 2, 30.0, 500_000.0, |i, j| (i + j) as f64)),
+        ("wide.asc", grid(300, 2, 30.0, 500_000.0, hills)),
+        ("long.asc", grid(2, 300, 30.0, 500_000.0, hills)),
+        ("constant.asc", grid(40, 30, 30.0, 500_000.0, |_, _| 12.5)),
+        ("flat.asc", grid(40, 30, 30.0, 500_000.0, |i, _| i as f64 * 1e-3)),
+        ("needle.asc", grid(20, 20, 1.0, 500_000.0, |i, j| if i * j == 100 { 900.0 } else { 0.0 })),
+        ("below.asc", grid(30, 30, 0.000_278, 31.0, |i, j| -430.0 + hills(i, j) / 9.0)),
+        ("degrees.asc", grid(50, 40, 0.25, 40.0, hills)),
+        ("giant.asc", grid(30, 30, 1e6, 1e7, |i, j| (i * j) as f64 * 1e5)),
+    ] {
+        folder.write(name, text);
+        for size in ["160x100", "90x90", "40x120"] {
+            let frame = folder.json(&["render", name, "-o", "out.png", "--size", size]);
+            let pixels = image::open(folder.path("out.png")).unwrap().into_rgb8();
+            let (columns, lines) = pixels.dimensions();
+            let hits = &frame["hits"];
+            let ground = hits["surface"].as_u64().unwrap() + hits["side"].as_u64().unwrap();
+            // A strip of one cell is a line of a few pixels on any screen.
+            assert!(ground > 20, "{name} at {size}: {hits}");
+            assert_eq!(hits["far"], 0, "{name} at {size}");
+            let edge = |x: u32, y: u32| x == 0 || y == 0 || x + 1 == columns || y + 1 == lines;
+            for (x, y, pixel) in pixels.enumerate_pixels() {
+                assert!(!edge(x, y) || pixel.0 == SKY, "{name} at {size}: ground at {x}, {y}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_scene_that_is_written_draws_the_same() {
+    let folder = Folder::new();
+    std::fs::create_dir_all(folder.path("maps/deep")).unwrap();
+    folder.write("maps/deep/a \"b\".asc", grid(50, 40, 0.001, 45.0, hills));
+    for options in [
+        &[][..],
+        &["--size", "64x48"],
+        &["--set", "camera.pitch=-50", "--set", "kernel.shape=hat"],
+        &["--set", "camera.forward=[1, -1, -1]"],
+        &["--set", "surface.height.scale=0.02", "--set", "surface.cell=[1.5, 1.0]"],
+        &["--set", "color.ramp.5=[255, 0, 0]", "--set", "camera.position.1=90"],
+        &["--set", "surface.outside=clamp", "--set", "light.ambient=0.5"],
+        &[
+            "--set",
+            "screen.size=[70, 50]",
+            "--set",
+            "screen.distance=1",
+            "--set",
+            "screen.pixel=[0.02, 0.02]",
+        ],
+        &["--set", "screen.mount.heading=5", "--set", "surface.nodata=7"],
+        &["--set", "surface.kind=plane"],
+    ] {
+        let dem = ["render", "maps/deep/a \"b\".asc", "--sample", "0"];
+        let small = if options.contains(&"--size") { &[][..] } else { &["--set", "seed=3"] };
+        let out = ["-o", "a.png", "--scene-out", "maps/scene.toml"];
+        folder.prints(&[&dem[..], options, small, &out].concat());
+        folder.prints(&["render", "maps/scene.toml", "--sample", "0", "-o", "b.png"]);
+        assert_eq!(folder.read("a.png"), folder.read("b.png"), "{options:?}");
+    }
+    let text = String::from_utf8(folder.read("maps/scene.toml")).unwrap();
+    assert!(text.contains("# Note:"), "{text}");
+}
+
+#[test]
+fn other_commands_take_height_files() {
+    let folder = Folder::new();
+    folder.write("dem.asc", grid(50, 40, 30.0, 500_000.0, hills));
+    let pixel = folder.json(&["explain", "dem.asc", "--pixel", "640,400"]);
+    assert_eq!(pixel["hit"], "surface");
+    assert_eq!(folder.json(&["plan", "dem.asc"])["columns"], 1280);
+    assert_eq!(folder.json(&["cycles", "dem.asc", "--size", "64x40"])["lines"], 40);
+    let frame = folder.json(&["render", "dem.asc", "--size", "64x40"]);
+    assert!(frame["chosen"].to_string().contains("metres are assumed"), "{frame}");
+    assert!(folder.prints(&["render", "dem.asc", "--size", "64x40"]).contains("  chosen "));
+    write_map(&folder.path("map.png"), 40, 40, |i, j| (i * j * 40) as u16);
+    let frame = folder.json(&["render", "map.png", "--size", "64x40"]);
+    assert!(frame["chosen"].to_string().contains("30 m x 30 m"), "{frame}");
+    // Colours that are heights, by an option.
+    image::RgbImage::from_fn(20, 20, |i, j| image::Rgb([1, 134 + (i / 4) as u8, (j * 9) as u8]))
+        .save(folder.path("tile.png"))
+        .unwrap();
+    let set = ["--set", "surface.encoding=terrain-rgb", "--size", "64x40"];
+    folder.prints(
+        &[&["render", "tile.png", "-o", "a.png", "--scene-out", "t.toml"], &set[..]].concat(),
+    );
+    folder.prints(&["render", "t.toml", "-o", "b.png"]);
+    assert_eq!(folder.read("a.png"), folder.read("b.png"));
+}
+
+#[test]
+fn info_says_what_was_understood() {
+    let folder = Folder::new();
+    folder.write("a.asc", grid(50, 40, 0.001, 45.0, hills));
+    write_map(&folder.path("b.png"), 4, 3, |i, j| (i + j) as u16);
+    let text = folder.prints(&["info", "a.asc", "b.png"]);
+    for word in [
+        "a.asc",
+        "ESRI ASCII grid",
+        "50 x 40 nodes",
+        "degrees: ",
+        "none declared; 0 of 2000 nodes",
+        "terraline render a.asc -o a-view.png",
+        "b.png",
+        "PNG, uint16",
+        "not known",
+        "0 to 5",
+    ] {
+        assert!(text.contains(word), "no {word:?} in {text}");
+    }
+    let json = folder.json(&["info", "a.asc", "b.png"]);
+    let files = json["files"].as_array().unwrap();
+    assert_eq!(files.len(), 2);
+    assert_eq!((&files[0]["columns"], &files[0]["rows"]), (&50.into(), &40.into()));
+    assert_eq!(files[0]["coordinates"], "degrees");
+    assert_eq!(files[0]["nodata_nodes"], 0);
+    assert!(files[1]["cell_m"].is_null() && files[1]["epsg"].is_null());
+    // What it says to type works.
+    folder.prints(&["render", "a.asc", "-o", "a-view.png", "--size", "64x40"]);
+    assert!(folder.path("a-view.png").exists());
+}

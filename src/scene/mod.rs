@@ -26,6 +26,7 @@ pub mod screen;
 pub mod set;
 mod surface;
 mod tree;
+pub mod write;
 
 use std::sync::Arc;
 

@@ -9,6 +9,7 @@ mod render;
 mod report;
 mod scene_args;
 mod scenes;
+mod view;
 
 use std::process::ExitCode;
 
@@ -24,6 +25,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    View(view::View),
     Render(render::Render),
     Explain(explain::Explain),
     Plan(plan::PlanCommand),
@@ -63,6 +65,7 @@ pub fn main() -> ExitCode {
             report::print(THREE_THINGS);
             Ok(())
         }
+        Some(Command::View(command)) => command.run(),
         Some(Command::Render(command)) => command.run(),
         Some(Command::Explain(command)) => command.run(),
         Some(Command::Plan(command)) => command.run(),

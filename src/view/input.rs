@@ -90,7 +90,14 @@ impl Hands {
         divider: Option<f64>,
         seconds: f64,
     ) -> Vec<Action> {
-        let mut actions: Vec<Action> = input.pressed.iter().filter_map(|&key| of(key)).collect();
+        let mut actions: Vec<Action> = input
+            .pressed
+            .iter()
+            .filter_map(|&key| match (key, input.cursor) {
+                (Key::Char('x' | 'X'), Some((x, y))) => Some(Action::Explain(x, y)),
+                (key, _) => of(key),
+            })
+            .collect();
         self.mouse(input, layout, divider, &mut actions);
         actions.extend(flight(input, seconds));
         actions

@@ -279,7 +279,8 @@ impl Drawer {
                     self.paint(order, task, &values);
                     self.show(order, desk, (line < lines).then_some(line));
                 }
-                if self.attend(machine, order, desk, Some(line))?.is_err() {
+                let scan = (line < lines).then_some(line);
+                if self.attend(machine, order, desk, scan)?.is_err() {
                     return Ok(Err(Superseded));
                 }
             }

@@ -42,6 +42,9 @@ pub enum RunError {
 /// Time that a frame of a script stands for, seconds.
 pub const SCRIPT_FRAME: f64 = 0.1;
 
+/// Shortest time between two pictures.
+const REFRESH: Duration = Duration::from_millis(14);
+
 /// An unchanged picture is shown again after this time: the window may have been covered.
 const AGAIN: Duration = Duration::from_millis(250);
 
@@ -88,7 +91,7 @@ impl<'a> View<'a> {
     /// [`RunError`].
     pub fn live(&mut self) -> Result<(), RunError> {
         let (mut last, mut presented) = (Instant::now(), None::<Instant>);
-        let mut version = None;
+        let (mut version, mut changed) = (None, true);
         while let Some(input) = self.glass.poll() {
             let seconds = last.elapsed().as_secs_f64().min(LONGEST_TICK);
             last = Instant::now();
@@ -100,10 +103,11 @@ impl<'a> View<'a> {
                 return Err(RunError::Drawing);
             }
             let now = self.drawing.shown().version;
-            let stale = presented.is_none_or(|then| then.elapsed() >= AGAIN);
-            if acted || stale || version != Some(now) {
+            changed |= acted || version != Some(now);
+            let wait = if changed { REFRESH } else { AGAIN };
+            if presented.is_none_or(|then| then.elapsed() >= wait) {
                 self.present(true)?;
-                (presented, version) = (Some(Instant::now()), Some(now));
+                (presented, version, changed) = (Some(Instant::now()), Some(now), false);
             }
         }
         Ok(())

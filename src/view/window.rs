@@ -8,8 +8,8 @@ use super::canvas::Canvas;
 use super::input::{Input, Key};
 use super::run::Glass;
 
-/// Ticks per second: fast enough not to miss a click.
-const TICKS: usize = 125;
+/// Ticks per second. Buttons are looked at once a tick: a click that is over sooner is not seen.
+const TICKS: usize = 250;
 
 /// An open window.
 pub struct Window {

@@ -10,7 +10,7 @@ pub(super) const KEYS: [(&str, &str); 23] = [
     ("W S  A D", "fly forward, back, left, right; Shift: faster"),
     ("E Q", "climb, sink"),
     ("arrows", "turn; Shift with left, right: roll"),
-    ("click", "explain a pixel in the terminal"),
+    ("click, X", "explain the pixel under the cursor in the terminal"),
     ("1 2 3", "colour, height, normal"),
     ("4 5 6", "steps, error against the oracle, cycles"),
     ("G", "engine: fast, processor, real, oracle"),

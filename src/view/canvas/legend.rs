@@ -15,7 +15,7 @@ use crate::view::shown::{Image, LineState, Shown};
 const CORNER: i32 = 8;
 
 /// Characters across a legend.
-const ACROSS: i32 = 26;
+const ACROSS: i32 = 30;
 
 /// A colour and what it means.
 type Swatch = ([u8; 3], &'static str);
@@ -86,7 +86,10 @@ enum Row {
 
 fn contents(session: &Session, image: &Image, most: i32) -> Vec<Row> {
     let title = image.pane.title();
-    let preview = image.note.is_none() && image.states.contains(&LineState::Preview);
+    // While lines fall, all that is not true is dimmed.
+    let preview = session.pace().is_full()
+        && image.note.is_none()
+        && image.states.contains(&LineState::Preview);
     let title = if preview { format!("{title}: preview") } else { title };
     let mut rows = vec![Row::Text(title)];
     if let Some(note) = image.note {

@@ -54,7 +54,9 @@ pub(super) fn draw(canvas: &mut Canvas, session: &Session, shown: &Shown, timed:
 }
 
 fn craft(scene: &Scene) -> Vec<String> {
-    let [heading, pitch, roll] = camera::degrees(&scene.camera);
+    // What rounds to nothing has no sign.
+    let tenth = |degrees: f64| (degrees * 10.0).round() / 10.0 + 0.0;
+    let [heading, pitch, roll] = camera::degrees(&scene.camera).map(tenth);
     let (course, point) = camera::compass(heading);
     let place = scene.camera.position;
     let mut items = vec![
@@ -66,6 +68,7 @@ fn craft(scene: &Scene) -> Vec<String> {
     if let Extent::FieldOfView(fov) = scene.screens[0].extent {
         items.push(format!("field {:.1}°", fov.to_degrees()));
     }
+    items.push("H help".into());
     items
 }
 
@@ -92,7 +95,6 @@ fn work(session: &Session, shown: &Shown, timed: bool) -> Vec<String> {
         items.push(times.join(", "));
     }
     items.extend(shown.facts.modelled.as_ref().map(modelled));
-    items.push("H help".into());
     items
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::{
     Angles, Attitude, Deformation, Extent, FormatRequest, Halvings, KernelShape, NoData, Outside,
-    Overflow, Plane, Rounding, Scene, Screen, StepperMode, Surface, WordSize,
+    Overflow, Rounding, Scene, Screen, StepperMode, Surface, WordSize,
 };
 
 /// The scene file of a scene. `map` is written as the path of its height map, if it has one that
@@ -45,7 +45,7 @@ pub fn toml(scene: &Scene, map: &str) -> String {
     );
 
     out.table("light");
-    out.key("direction", vector(unnormalised(scene.light.direction)));
+    out.key("direction", vector(scene.light.direction));
     out.key("ambient", number(scene.light.ambient));
 
     let color = &scene.color;
@@ -145,10 +145,9 @@ fn surface(out: &mut Tables, surface: &Surface, map: &str) {
             }
         }
         Surface::Plane(plane) => {
-            let (normal, distance) = unnormalised_plane(plane);
             out.key("kind", text("plane"));
-            out.key("normal", vector(normal));
-            out.key("distance", number(distance));
+            out.key("normal", vector(plane.normal));
+            out.key("distance", number(plane.distance));
             out.key("checker", number(plane.checker));
         }
     }
@@ -253,29 +252,4 @@ fn degrees(radians: f64) -> f64 {
         [above, below]
     }));
     rounded.chain(neighbours).find(reads_back).unwrap_or(near)
-}
-
-/// Factors by which a unit vector is made longer until normalising it rounds back to itself: each
-/// has even odds or so.
-const LENGTHS: std::ops::RangeInclusive<u32> = 1..=1000;
-
-/// A vector whose normalisation is this unit vector in every bit.
-fn unnormalised(unit: DVec3) -> DVec3 {
-    let longer = |length: u32| unit * f64::from(length);
-    LENGTHS.map(longer).find(|vector| vector.normalize() == unit).unwrap_or(unit)
-}
-
-/// Normal and distance that read back as those of the plane.
-fn unnormalised_plane(plane: &Plane) -> (DVec3, f64) {
-    let longer = |length: u32| {
-        let length = f64::from(length);
-        (plane.normal * length, plane.distance * length)
-    };
-    LENGTHS
-        .map(longer)
-        .find(|(normal, distance)| {
-            let length = normal.length();
-            *normal / length == plane.normal && distance / length == plane.distance
-        })
-        .unwrap_or((plane.normal, plane.distance))
 }

@@ -349,7 +349,8 @@ impl Drawer {
                 let Some(granted) = self.granted(machine, order, desk, line)? else {
                     return Ok(Err(Superseded));
                 };
-                let granted = granted.min(lines - line);
+                let (granted, over) = (granted.min(lines - line), granted);
+                desk.give_back(over - granted);
                 for (_, scan, values) in &mut scans {
                     let Some(band) = scan.draw(granted, &|| desk.superseded()) else {
                         return Ok(Err(Superseded));

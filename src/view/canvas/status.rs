@@ -139,7 +139,10 @@ fn probe(probe: &Probe) -> Vec<String> {
         }
         None => items.push(hit_name(probe.hit).into()),
     }
-    items.push(format!("{} cycles", probe.cycles));
+    items.push(match probe.cycles {
+        1 => "1 cycle".into(),
+        cycles => format!("{cycles} cycles"),
+    });
     items.push(match (probe.error_px, probe.sheet) {
         (Some(error), _) => format!("error {} px", figure(error)),
         (None, Sheet::Silhouette) => "silhouette: the oracle sees another sheet".into(),

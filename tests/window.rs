@@ -20,6 +20,7 @@ use terraline::scene::{Scene, builtin};
 use terraline::setup::{Memory, Setup};
 use terraline::sink::picture::Picture;
 use terraline::study::explain::{explain, text::text};
+use terraline::view::action::Action;
 use terraline::view::canvas::Canvas;
 use terraline::view::drawing::{Drawing, Order};
 use terraline::view::input::Input;
@@ -228,7 +229,7 @@ fn dragging_moves_the_scene_with_the_mouse() {
     let plan = Plan::new(scene, None, false).unwrap();
     let point = engine::oracle(scene, &plan).pixel(100.0, 150.0).point;
     let before = place(&session)(point);
-    session.act(terraline::view::session::Action::Drag(20.0, 10.0));
+    session.act(Action::Drag(20.0, 10.0));
     let after = place(&session)(point);
     let (down, right) = (after.0 - before.0, after.1 - before.1);
     assert!((down - 10.0).abs() < 3.0 && (7.0..22.0).contains(&right), "{right} {down}");
@@ -247,7 +248,7 @@ fn the_craft_stays_above_the_ground() {
     let ahead = terraline::view::camera::Course { forward: 1.0, up: -1.0, right: 0.3 };
     for step in 0..400 {
         let course = if step < 40 { down } else { ahead };
-        session.act(terraline::view::session::Action::Fly(course, 0.1));
+        session.act(Action::Fly(course, 0.1));
         let order = session.order().unwrap();
         let drawing = Drawing::start(order);
         assert!(drawing.is_ok(), "step {step}: {:?}", drawing.err());

@@ -52,9 +52,9 @@ impl<E: std::error::Error> From<E> for Stop {
 const THREE_THINGS: &str = "\
 Terraline emulates a dedicated raster processor for flight-simulator terrain.
 Three things to try:
+  terraline view flight                        fly over the built-in map (H shows the keys)
   terraline render -o frame.png                draw the built-in scene `overview`
   terraline explain overview --pixel 400,700   follow one pixel from set-up to colour
-  terraline scenes valley > my.toml            a scene file to start from
 All commands: terraline --help";
 
 /// Runs the command line of this process.

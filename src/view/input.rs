@@ -1,8 +1,8 @@
 //! Keys and mouse of one tick, and what they mean.
 
+use super::action::{Action, Side};
 use super::camera::Course;
 use super::layout::Layout;
-use super::session::{Action, Side};
 use crate::sink::picture::Picture;
 
 /// A key. Characters are those that are typed, so that they are where the keyboard has them.

@@ -6,7 +6,8 @@
 //!       +------------- canvas <-------------------+------- shown <-----+
 //! ```
 //!
-//! - [`mod@input`]: keys and mouse of one tick, and [`input::Hands`], which turn them into actions.
+//! - [`mod@input`]: keys and mouse of one tick, and [`input::Hands`], which turn them into actions
+//!   ([`action`]).
 //! - [`script`]: the same from a text, for runs without hands.
 //! - [`session`]: what is being looked at and how; actions change it. [`camera`] moves the craft,
 //!   [`pane`] says what each side of the divider shows.
@@ -16,6 +17,7 @@
 //! - [`run`]: the loop between a [`run::Glass`] and the rest; `window` is the one that opens a
 //!   window, and the only file that knows how.
 
+pub mod action;
 pub mod camera;
 pub mod canvas;
 pub mod drawing;
@@ -25,10 +27,12 @@ pub mod machine;
 pub mod pace;
 pub mod pane;
 pub mod passes;
+mod preview;
 pub mod probe;
 pub mod run;
 pub mod script;
 pub mod session;
 pub mod shown;
 pub mod sources;
+mod values;
 pub mod window;

@@ -4,24 +4,14 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::plan::WordClass;
-use crate::scene::{Scene, WordSize};
 use crate::setup::SetupError;
-use crate::sink::picture::{self, Painted, Picture};
-use crate::study::error::{Sample, Sheet};
 
 use super::drawing::{Desk, Order, Wake};
 use super::machine::{Machine, Memories, machine};
 use super::pane::Source;
 use super::probe::Modelled;
 use super::shown::{Facts, Image, LineState, Shown, Timing};
-use super::sources::{Band, error_px};
-
-/// A frame that takes longer is drawn coarsely first.
-const PATIENCE: Duration = Duration::from_millis(30);
-
-/// Time that a coarse frame may take.
-const PREVIEW: f64 = 0.02;
+use super::values::{Task, Values};
 
 /// Time between two moments that are shown.
 const MOMENT: Duration = Duration::from_millis(25);
@@ -34,8 +24,8 @@ const SAMPLED_LINES: u32 = 16;
 
 /// The one who draws.
 pub struct Drawer {
-    memories: Memories,
-    images: Vec<Image>,
+    pub(super) memories: Memories,
+    pub(super) images: Vec<Image>,
     facts: Facts,
     /// Seconds per pixel of each source, as measured last.
     costs: HashMap<Source, f64>,
@@ -44,7 +34,7 @@ pub struct Drawer {
 }
 
 /// A newer order has come, or the end.
-struct Superseded;
+pub(super) struct Superseded;
 
 impl Drawer {
     /// With the memories that the first set-up has loaded.
@@ -136,112 +126,18 @@ impl Drawer {
             Ok(()) => self.whole_frames(machine, order, desk, &tasks, set_up)?,
         };
         if finished.is_ok() {
-            self.linger(machine, order, desk, false)?;
+            self.linger(machine, order, desk)?;
         }
         Ok(())
     }
 
-    fn cost(&self, source: Source) -> f64 {
+    pub(super) fn cost(&self, source: Source) -> f64 {
         self.costs.get(&source).copied().unwrap_or(match source {
             Source::Fast => 0.2e-6,
             Source::Processor | Source::Real => 0.7e-6,
             Source::Oracle => 6e-6,
             Source::FixedError | Source::RealError => 2e-5,
         })
-    }
-
-    /// Coarse pictures of all panes, where the true ones would take long.
-    fn preview(
-        &mut self,
-        machine: &dyn Machine,
-        order: &Order,
-        desk: &Desk,
-        tasks: &[Task],
-    ) -> Result<Result<(), Superseded>, SetupError> {
-        let (columns, lines) = order.raster();
-        let pixels = (columns * lines) as f64;
-        let wait: f64 = tasks.iter().map(|task| self.cost(task.source) * pixels).sum();
-        if wait < PATIENCE.as_secs_f64() && !order.by_lines {
-            return Ok(Ok(()));
-        }
-        for task in tasks {
-            let share = PREVIEW / tasks.len() as f64;
-            let in_time = |f: &usize| self.cost(task.source) * pixels / (f * f) as f64 <= share;
-            let factor = match task.source {
-                // Below the falling scan the same coarse picture lies every time.
-                Source::Fast | Source::Processor | Source::Real if order.by_lines => 4,
-                _ if order.by_lines => 16,
-                _ => (0..16).map(|power| 1 << power).find(in_time).unwrap_or(1),
-            };
-            let drawn = if matches!(task.source, Source::FixedError | Source::RealError) {
-                self.sampled(machine, desk, task, factor.max(2))?
-            } else {
-                self.coarse(machine, order, desk, task, factor)?
-            };
-            if drawn.is_err() {
-                return Ok(Err(Superseded));
-            }
-        }
-        self.show(order, desk, Some(0));
-        Ok(Ok(()))
-    }
-
-    /// A frame on a raster coarser by a whole number, enlarged.
-    fn coarse(
-        &mut self,
-        machine: &dyn Machine,
-        order: &Order,
-        desk: &Desk,
-        task: &Task,
-        factor: usize,
-    ) -> Result<Result<(), Superseded>, SetupError> {
-        let scene = coarser(&order.scene, factor, machine.plan().words());
-        // What the coarse raster cannot do does not matter: the true frame follows.
-        let Ok(coarse) = self::machine(&Arc::new(scene), order.full, &self.memories) else {
-            return Ok(Ok(()));
-        };
-        let mut scan = coarse.scan(task.source, task.needs_buffers(order))?;
-        let Some(band) = scan.draw(u32::MAX, &|| desk.superseded()) else {
-            return Ok(Err(Superseded));
-        };
-        let mut values = Values::default();
-        values.push(band);
-        for &pane in &task.panes {
-            let painted = values.paint(order.panes[pane].picture);
-            self.images[pane].spread(painted, factor);
-        }
-        Ok(Ok(()))
-    }
-
-    /// Errors of every pixel in the middle of a square.
-    fn sampled(
-        &mut self,
-        machine: &dyn Machine,
-        desk: &Desk,
-        task: &Task,
-        factor: usize,
-    ) -> Result<Result<(), Superseded>, SetupError> {
-        let geometry = &machine.plan().geometry;
-        let middles = |count: u32| -> Vec<u32> {
-            let middle = |from: u32| (from + factor as u32 / 2).min(count - 1);
-            (0..count).step_by(factor).map(middle).collect()
-        };
-        let columns = middles(geometry.columns);
-        let (mut errors, mut silhouettes) = (Vec::new(), Vec::new());
-        for lines in middles(geometry.lines).chunks(4) {
-            if desk.superseded() {
-                return Ok(Err(Superseded));
-            }
-            let sample = Sample { lines: lines.to_vec(), columns: columns.clone() };
-            for pixel in machine.errors(&sample)? {
-                errors.push(error_px(&pixel, task.source == Source::RealError));
-                silhouettes.push(pixel.sheet == Sheet::Silhouette);
-            }
-        }
-        for &pane in &task.panes {
-            self.images[pane].spread(picture::error(&errors, &silhouettes), factor);
-        }
-        Ok(Ok(()))
     }
 
     /// Every source's frame, one after the other, as fast as can be.
@@ -297,29 +193,6 @@ impl Drawer {
             None => machine.modelled(SAMPLED_LINES),
         });
         self.show(order, desk, None);
-        Ok(Ok(()))
-    }
-
-    /// Errors take so long that they come in several passes, each twice as fine.
-    fn refine(
-        &mut self,
-        machine: &dyn Machine,
-        order: &Order,
-        desk: &Desk,
-        task: &Task,
-    ) -> Result<Result<(), Superseded>, SetupError> {
-        if !matches!(task.source, Source::FixedError | Source::RealError) {
-            return Ok(Ok(()));
-        }
-        for factor in [16, 8, 4, 2] {
-            if self.sampled(machine, desk, task, factor)?.is_err() {
-                return Ok(Err(Superseded));
-            }
-            self.show(order, desk, Some(0));
-            if self.attend(machine, order, desk, Some(0))?.is_err() {
-                return Ok(Err(Superseded));
-            }
-        }
         Ok(Ok(()))
     }
 
@@ -399,10 +272,9 @@ impl Drawer {
         machine: &dyn Machine,
         order: &Order,
         desk: &Desk,
-        lines: bool,
     ) -> Result<(), SetupError> {
         loop {
-            match desk.wait(lines) {
+            match desk.wait(false) {
                 Wake::Superseded => return Ok(()),
                 wake => self.answer(wake, machine, order, desk, None)?,
             }
@@ -410,7 +282,7 @@ impl Drawer {
     }
 
     /// Does what else is wanted now.
-    fn attend(
+    pub(super) fn attend(
         &mut self,
         machine: &dyn Machine,
         order: &Order,
@@ -458,7 +330,7 @@ impl Drawer {
         }
     }
 
-    fn show(&mut self, order: &Order, desk: &Desk, scan: Option<u32>) {
+    pub(super) fn show(&mut self, order: &Order, desk: &Desk, scan: Option<u32>) {
         self.version += 1;
         self.moment = Instant::now();
         desk.show(Shown {
@@ -474,72 +346,5 @@ impl Drawer {
 impl Image {
     fn blank_like(&self) -> Self {
         Self::blank(self.pane, self.columns, self.lines)
-    }
-}
-
-/// The scene on a raster coarser by a factor, in the same words: its memories then serve both.
-fn coarser(scene: &Scene, factor: usize, words: WordClass) -> Scene {
-    let mut scene = scene.clone();
-    let coarse = |pixels: u32| (pixels as usize).div_ceil(factor) as u32;
-    for screen in &mut scene.screens {
-        *screen = screen.resized(coarse(screen.columns), coarse(screen.lines));
-    }
-    scene.machine.words =
-        if words == WordClass::NARROW { WordSize::Narrow } else { WordSize::Wide };
-    scene
-}
-
-/// A source and the panes that show it.
-struct Task {
-    source: Source,
-    panes: Vec<usize>,
-}
-
-impl Task {
-    fn needs_buffers(&self, order: &Order) -> bool {
-        self.panes.iter().any(|&pane| order.panes[pane].picture.needs_buffers())
-    }
-}
-
-/// Values of all lines drawn so far.
-#[derive(Default)]
-struct Values {
-    color: Vec<[u8; 3]>,
-    height: Vec<f64>,
-    normal: Vec<[f64; 3]>,
-    steps: Vec<u32>,
-    cycles: Vec<u32>,
-    errors: Vec<f64>,
-    silhouettes: Vec<bool>,
-}
-
-impl Values {
-    fn push(&mut self, band: Band) {
-        if let Some(frame) = band.frame {
-            self.color.extend(frame.color);
-            if let Some(buffers) = frame.buffers {
-                self.height.extend(buffers.height);
-                self.normal.extend(buffers.normal);
-                self.steps.extend(buffers.steps);
-            }
-        }
-        self.cycles.extend(band.cycles);
-        self.errors.extend(band.errors);
-        self.silhouettes.extend(band.silhouettes);
-    }
-
-    fn pixels(&self) -> usize {
-        self.color.len().max(self.errors.len())
-    }
-
-    fn paint(&self, picture: Picture) -> Painted {
-        match picture {
-            Picture::Color => Painted { pixels: self.color.clone(), legend: None },
-            Picture::Height => picture::height(&self.height),
-            Picture::Normal => picture::normal(&self.normal),
-            Picture::Steps => picture::steps(&self.steps),
-            Picture::Error => picture::error(&self.errors, &self.silhouettes),
-            Picture::Cycles => picture::cycles(&self.cycles),
-        }
     }
 }

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use super::action::Effect;
 use super::canvas::Canvas;
 use super::drawing::Drawing;
 use super::input::{Hands, Input};
 use super::layout::Layout;
-use super::session::{Effect, Session};
+use super::session::Session;
 use crate::sink::{SinkError, png};
 
 /// A window, or what stands for one.

@@ -55,7 +55,7 @@ impl Glass for Sizes {
 
 fn scene(name: &str, sets: &[&str]) -> Scene {
     let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
-    builtin::load(Some(name), &sets).unwrap()
+    builtin::load(Some(name), &sets).expect("a built-in scene")
 }
 
 /// A run in glasses of these sizes: the last canvas, and what was printed.
@@ -65,12 +65,13 @@ fn run_in(
     sizes: &[(usize, usize)],
     keys: &str,
 ) -> Result<(Canvas, Vec<String>), RunError> {
-    let script = script::parse(keys).unwrap();
+    let script = script::parse(keys).expect("keys");
     let frames = (script.len() + 1).max(sizes.len()) as u32;
     let mut glass = Sizes(sizes.iter().copied().collect());
     let layout = Layout::new(sizes[0].0, sizes[0].1, scale);
     let mut session = Session::new(scene, false, "map.png".into(), Engine::Fast, layout);
-    let drawing = Drawing::start(session.order().unwrap()).unwrap();
+    let drawing = Drawing::start(session.order().expect("the first order"))
+        .expect("a scene that can be drawn");
     let mut printed = Vec::new();
     let mut print = |text: &str| printed.push(text.to_owned());
     let mut view = View::new(&mut glass, session, drawing, &mut print);
@@ -80,7 +81,7 @@ fn run_in(
 }
 
 fn run(scene: Scene, size: (usize, usize), keys: &str) -> (Canvas, Vec<String>) {
-    run_in(scene, 1, &[size], keys).unwrap()
+    run_in(scene, 1, &[size], keys).expect("a window that stays open")
 }
 
 struct Fast<'a>(&'a Scene, &'a Plan);
@@ -88,8 +89,9 @@ struct Fast<'a>(&'a Scene, &'a Plan);
 impl InFixedWorld for Fast<'_> {
     type Output = Frame;
     fn run<W: Complete + Enterable>(self, world: W) -> Frame {
-        let memory = Memory::new(&world, self.0, self.1).unwrap();
-        let setup = Setup::new(world, self.0, self.1, memory.as_ref()).unwrap();
+        let memory = Memory::new(&world, self.0, self.1).expect("a scene that can be drawn");
+        let setup =
+            Setup::new(world, self.0, self.1, memory.as_ref()).expect("a scene that can be drawn");
         fast::render(&setup, self.1, true)
     }
 }
@@ -98,14 +100,18 @@ impl InFixedWorld for Fast<'_> {
 fn frame(scene: &Scene, size: (usize, usize), engine: Engine) -> Frame {
     let mut scene = scene.clone();
     scene.screens[0] = scene.screens[0].resized(size.0 as u32, size.1 as u32);
-    let plan = Plan::new(&scene, None, false).unwrap();
+    let plan = Plan::new(&scene, None, false).expect("a scene that can be drawn");
     match engine {
         Engine::Oracle => engine::draw_oracle(&scene, &plan),
         Engine::Real => {
-            let memory = Memory::new(&terraline::word::real::Real, &scene, &plan).unwrap();
-            engine::draw_real(&scene, &plan, memory.as_ref(), true).unwrap()
+            let memory = Memory::new(&terraline::word::real::Real, &scene, &plan)
+                .expect("a scene that can be drawn");
+            engine::draw_real(&scene, &plan, memory.as_ref(), true)
+                .expect("a scene that can be drawn")
         }
-        _ => FixedWorld::of(&scene, &plan).unwrap().run(Fast(&scene, &plan)),
+        _ => FixedWorld::of(&scene, &plan)
+            .expect("a scene that can be drawn")
+            .run(Fast(&scene, &plan)),
     }
 }
 

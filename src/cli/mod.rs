@@ -55,7 +55,7 @@ Three things to try:
   terraline view flight                        fly over the built-in map (H shows the keys)
   terraline render -o frame.png                draw the built-in scene `overview`
   terraline explain overview --pixel 400,700   follow one pixel from set-up to colour
-All commands: terraline --help";
+Scenes to start from: terraline scenes. All commands: terraline --help";
 
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {

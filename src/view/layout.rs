@@ -41,11 +41,13 @@ impl Layout {
     /// Raster pixel (column, line) at a place of the window.
     #[must_use]
     pub fn pixel(&self, x: i32, y: i32) -> Option<(u32, u32)> {
-        let place = |at: i32, start: usize, count: usize| {
-            let at = usize::try_from(at).ok()?.checked_sub(start)? / self.scale;
-            (at < count).then_some(at as u32)
+        let place = |at: i32, side: usize, start: usize, count: usize| {
+            let at = usize::try_from(at).ok().filter(|&at| at < side)?;
+            let pixel = at.checked_sub(start)? / self.scale;
+            (pixel < count).then_some(pixel as u32)
         };
-        Some((place(x, self.left, self.columns)?, place(y, self.top, self.lines)?))
+        let column = place(x, self.width, self.left, self.columns)?;
+        Some((column, place(y, self.height, self.top, self.lines)?))
     }
 
     /// Window column of a place across the raster, 0..=1.

@@ -2,6 +2,7 @@
 
 use std::any::Any;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::Instant;
 
 use crate::engine::{self, FixedWorld, InFixedWorld};
 use crate::fast::enter::Enterable;
@@ -24,6 +25,9 @@ pub trait Machine: Send + Sync {
 
     /// Name of its fixed-point world.
     fn world(&self) -> &'static str;
+
+    /// Seconds that its coefficients took to set up, without memories.
+    fn set_up_seconds(&self) -> f64;
 
     /// Whether the fast engine can draw it.
     fn wraps(&self) -> bool;
@@ -79,8 +83,10 @@ impl InFixedWorld for Load<'_> {
 
     fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
         let memory = self.memories.get(world, self.scene, &self.plan)?;
+        let start = Instant::now();
         let fixed = Setup::new(world, self.scene, &self.plan, memory.as_ref().as_ref())?;
         Ok(Box::new(Loaded {
+            set_up_seconds: start.elapsed().as_secs_f64(),
             scene: Arc::clone(self.scene),
             plan: self.plan,
             name: self.name,
@@ -94,6 +100,7 @@ impl InFixedWorld for Load<'_> {
 }
 
 struct Loaded<W: Complete> {
+    set_up_seconds: f64,
     scene: Arc<Scene>,
     plan: Plan,
     name: &'static str,
@@ -135,6 +142,10 @@ impl<W: Complete + Enterable> Machine for Loaded<W> {
 
     fn world(&self) -> &'static str {
         self.name
+    }
+
+    fn set_up_seconds(&self) -> f64 {
+        self.set_up_seconds
     }
 
     fn wraps(&self) -> bool {
@@ -182,8 +193,8 @@ pub struct Memories(Arc<Mutex<Vec<Kept>>>);
 /// What a memory depends on, in words, and the memory.
 type Kept = (String, Arc<dyn Any + Send + Sync>);
 
-/// Fixed and real, for this kernel and the one before.
-const KEPT: usize = 4;
+/// Fixed and real: of large maps they are large.
+const KEPT: usize = 2;
 
 impl Memories {
     fn get<W: Complete>(

@@ -21,6 +21,7 @@ pub mod action;
 pub mod camera;
 pub mod canvas;
 pub mod drawing;
+pub mod ground;
 pub mod input;
 pub mod layout;
 pub mod machine;

@@ -71,15 +71,13 @@ impl Drawer {
                 image
             })
             .collect();
-        let start = Instant::now();
         let machine = match machine(&order.scene, order.full, &self.memories) {
             Ok(machine) => machine,
             Err(error) => return self.stand_still(&error, order, desk),
         };
-        let set_up = start.elapsed().as_secs_f64();
         self.facts.world = machine.world();
         self.facts.trouble = None;
-        let result = self.work(&*machine, order, desk, set_up);
+        let result = self.work(&*machine, order, desk);
         if let Err(error) = result {
             self.stand_still(&error, order, desk);
         }
@@ -103,7 +101,6 @@ impl Drawer {
         machine: &dyn Machine,
         order: &Order,
         desk: &Desk,
-        set_up: f64,
     ) -> Result<(), SetupError> {
         let mut tasks: Vec<Task> = Vec::new();
         for (index, pane) in order.panes.iter().enumerate() {
@@ -123,7 +120,7 @@ impl Drawer {
         let finished = match self.preview(machine, order, desk, &tasks)? {
             Err(Superseded) => Err(Superseded),
             Ok(()) if order.by_lines => self.by_lines(machine, order, desk, &tasks)?,
-            Ok(()) => self.whole_frames(machine, order, desk, &tasks, set_up)?,
+            Ok(()) => self.whole_frames(machine, order, desk, &tasks)?,
         };
         if finished.is_ok() {
             self.linger(machine, order, desk)?;
@@ -147,7 +144,6 @@ impl Drawer {
         order: &Order,
         desk: &Desk,
         tasks: &[Task],
-        set_up: f64,
     ) -> Result<Result<(), Superseded>, SetupError> {
         let lines = machine.plan().geometry.lines;
         let mut timings = Vec::new();
@@ -182,7 +178,8 @@ impl Drawer {
             }
             let pixels = values.pixels().max(1) as f64;
             self.costs.insert(task.source, spent / pixels);
-            timings.push(Timing { source: task.source, ms: 1e3 * (set_up + spent) });
+            timings
+                .push(Timing { source: task.source, ms: 1e3 * (machine.set_up_seconds() + spent) });
             if task.source != Source::Processor {
                 exact = None;
             }

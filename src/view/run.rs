@@ -46,6 +46,9 @@ pub const SCRIPT_FRAME: f64 = 0.1;
 /// Shortest time between two pictures.
 const REFRESH: Duration = Duration::from_millis(14);
 
+/// A view that has not changed for so long rests.
+const REST: Duration = Duration::from_millis(150);
+
 /// An unchanged picture is shown again after this time: the window may have been covered.
 const AGAIN: Duration = Duration::from_millis(250);
 
@@ -61,6 +64,9 @@ pub struct View<'a> {
     hands: Hands,
     canvas: Canvas,
     looked_at: Option<(u32, u32)>,
+    /// When the view changed last; not in a script, which has no clock.
+    ordered: Option<Instant>,
+    live: bool,
     print: &'a mut dyn FnMut(&str),
 }
 
@@ -82,6 +88,8 @@ impl<'a> View<'a> {
             hands: Hands::default(),
             canvas: Canvas::default(),
             looked_at: None,
+            ordered: None,
+            live: false,
             print,
         }
     }
@@ -91,6 +99,7 @@ impl<'a> View<'a> {
     /// # Errors
     /// [`RunError`].
     pub fn live(&mut self) -> Result<(), RunError> {
+        self.live = true;
         let (mut last, mut presented) = (Instant::now(), None::<Instant>);
         let (mut version, mut changed) = (None, true);
         while let Some(input) = self.glass.poll() {
@@ -173,7 +182,9 @@ impl<'a> View<'a> {
         let speed = self.session.pace().lines_per_second().unwrap_or_default();
         self.drawing.grant(lines, lines.max(speed / 4));
         let pointed = self.session.pointed();
-        if pointed != self.looked_at {
+        // Looking at a pixel takes an oracle of its own: not while the view changes.
+        let rests = self.ordered.is_none_or(|then| then.elapsed() >= REST);
+        if pointed != self.looked_at && rests {
             self.looked_at = pointed;
             self.drawing.look(pointed);
         }
@@ -187,6 +198,7 @@ impl<'a> View<'a> {
         self.drawing.order(order);
         // The new picture has another pixel under the cursor.
         self.looked_at = None;
+        self.ordered = self.live.then(Instant::now);
         true
     }
 

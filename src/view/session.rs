@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use crate::engine::Engine;
-use crate::oracle::Oracle;
-use crate::scene::{Camera, Deformation, Kernel, KernelShape, Scene, Screen, Surface, write};
+use crate::scene::{Camera, Deformation, KernelShape, Scene, Screen, Surface, write};
 use crate::sink::picture::Picture;
 
 use super::action::{Action, Effect, Side};
 use super::camera;
 use super::drawing::Order;
+use super::ground;
 use super::layout::Layout;
 use super::pace::Pace;
 use super::pane::Pane;
@@ -30,8 +30,6 @@ pub struct Session {
     help: bool,
     panels: bool,
     notice: Option<String>,
-    /// For the height above ground, under the kernel it was made for.
-    ground: Option<(Kernel, Oracle)>,
     changed: bool,
 }
 
@@ -71,7 +69,6 @@ impl Session {
             help: false,
             panels: true,
             notice: None,
-            ground: None,
             changed: true,
         };
         session.resize(layout);
@@ -317,7 +314,7 @@ impl Session {
     }
 
     /// Scene units per second.
-    fn speed(&mut self) -> f64 {
+    fn speed(&self) -> f64 {
         let height = self.eye_above_ground().map_or(0.0, f64::abs);
         let width = match &self.scene.surface {
             Surface::Terrain(terrain) => {
@@ -330,14 +327,9 @@ impl Session {
     }
 
     /// Height of the eye above the surface, scene units; `None` beside the map.
-    fn eye_above_ground(&mut self) -> Option<f64> {
-        let ground = match self.ground.take() {
-            Some((kernel, oracle)) if kernel == self.scene.kernel => oracle,
-            _ => Oracle::new(&self.scene, &self.scene.screens[0]),
-        };
+    fn eye_above_ground(&self) -> Option<f64> {
         let eye = self.eye();
-        let (_, ground) = self.ground.insert((self.scene.kernel, ground));
-        ground.surface_height(eye.x, eye.z).map(|height| eye.y - height)
+        ground::height(&self.scene, eye).map(|height| eye.y - height)
     }
 
     /// Centre of projection, scene units.

@@ -15,6 +15,7 @@
 //! - [`processor`] and [`fast`]: the two engines, equal in every bit; [`clock`] counts cycles.
 //! - [`oracle`]: every pixel in closed form, sharing no code with what it checks.
 //! - [`study`], [`sink`], [`cli`]: errors and costs, files, commands.
+//! - `view` (feature `window`): the window.
 //!
 //! Draw a frame and ask what it is worth:
 //!
@@ -53,4 +54,6 @@ pub mod setup;
 pub mod sink;
 pub mod study;
 pub mod unit;
+#[cfg(feature = "window")]
+pub mod view;
 pub mod word;

@@ -89,7 +89,9 @@ fn fraction(value: &Value) -> f64 {
 fn without_a_command_it_says_what_to_try() {
     let folder = Folder::new();
     let text = folder.prints(&[]);
-    for word in ["terraline render", "terraline explain", "terraline scenes", "--help"] {
+    for word in
+        ["terraline view", "terraline render", "terraline explain", "terraline scenes", "--help"]
+    {
         assert!(text.contains(word), "{text}");
     }
     assert!(folder.names().is_empty());
@@ -98,7 +100,7 @@ fn without_a_command_it_says_what_to_try() {
 #[test]
 fn every_command_explains_itself() {
     let folder = Folder::new();
-    for command in ["render", "explain", "plan", "cycles", "compare", "scenes", "info"] {
+    for command in ["view", "render", "explain", "plan", "cycles", "compare", "scenes", "info"] {
         let text = folder.prints(&[command, "--help"]);
         assert!(text.contains(&format!("Example: terraline {command}")), "{text}");
     }

@@ -10,6 +10,7 @@ mod render;
 mod report;
 mod scene_args;
 mod scenes;
+mod view;
 
 use std::process::ExitCode;
 
@@ -25,6 +26,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    View(view::View),
     Render(render::Render),
     Explain(explain::Explain),
     Plan(plan::PlanCommand),
@@ -52,11 +54,11 @@ impl<E: std::error::Error> From<E> for Stop {
 const THREE_THINGS: &str = "\
 Terraline emulates a dedicated raster processor for flight-simulator terrain.
 Things to try:
+  terraline view flight                        fly over the built-in map (H shows the keys)
   terraline render -o frame.png                draw the built-in scene `overview`
   terraline render dem.tif -o terrain.png      draw your own height file
   terraline explain overview --pixel 400,700   follow one pixel from set-up to colour
-  terraline scenes valley > my.toml            a scene file to start from
-All commands: terraline --help";
+Scenes to start from: terraline scenes. All commands: terraline --help";
 
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
@@ -66,6 +68,7 @@ pub fn main() -> ExitCode {
             report::print(THREE_THINGS);
             Ok(())
         }
+        Some(Command::View(command)) => command.run(),
         Some(Command::Render(command)) => command.run(),
         Some(Command::Explain(command)) => command.run(),
         Some(Command::Plan(command)) => command.run(),

@@ -92,6 +92,12 @@ impl SceneArgs {
         !self.format.is_empty()
     }
 
+    /// Whether a raster was asked for on the command line.
+    #[cfg(feature = "window")]
+    pub fn asks_for_size(&self) -> bool {
+        self.size.is_some()
+    }
+
     /// Files that a planned scene was read from.
     pub fn inputs(&self, planned: &Planned) -> Vec<PathBuf> {
         let Some(file) = self.scene.as_deref().map(PathBuf::from) else { return Vec::new() };

@@ -120,6 +120,12 @@ impl<'a> Field<'a> {
     }
 }
 
+/// Whether a vector is as near to unit length as normalising makes one: it is then taken as it is,
+/// so that directions that were written by the program are read back in every bit.
+pub(super) fn is_unit(vector: DVec3) -> bool {
+    (vector.length() - 1.0).abs() <= 1e-15
+}
+
 fn shown_all(numbers: &[f64]) -> String {
     let shown: Vec<String> = numbers.iter().map(|&number| shown(number)).collect();
     format!("[{}]", shown.join(", "))

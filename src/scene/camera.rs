@@ -66,6 +66,17 @@ fn directions(table: &Fields<'_>) -> Result<(DVec3, DVec3), SceneError> {
     Ok((forward, up))
 }
 
+impl Attitude {
+    /// Heading, pitch and roll, radians; of directions, the angles that turn the craft as they do.
+    #[must_use]
+    pub fn angles(&self) -> Angles {
+        match *self {
+            Self::Angles(angles) => angles,
+            Self::Directions { forward, up } => angles_of(forward, up),
+        }
+    }
+}
+
 /// The angles that turn the craft as two directions do.
 fn angles_of(forward: DVec3, up: DVec3) -> Angles {
     let u = forward.normalize();

@@ -8,6 +8,7 @@ use std::path::Path;
 use glam::DVec3;
 use toml::de::DeTable;
 
+use super::array::is_unit;
 use super::error::{Place, SceneError};
 use super::field::{Context, Field, Fields, is_length};
 use super::height_map::{file_reason, one_line, read_limited};
@@ -189,7 +190,8 @@ fn light(table: &Fields<'_>) -> Result<Light, SceneError> {
     let ambient = table.read("ambient", 0.3, |ambient| {
         ambient.number("a number from 0 to 1", |share| (0.0..=1.0).contains(&share))
     })?;
-    Ok(Light { direction: direction.normalize(), ambient })
+    let direction = if is_unit(direction) { direction } else { direction.normalize() };
+    Ok(Light { direction, ambient })
 }
 
 fn colors(table: &Fields<'_>) -> Result<Colors, SceneError> {

@@ -29,6 +29,7 @@ pub mod screen;
 pub mod set;
 mod surface;
 mod tree;
+pub mod write;
 
 use std::sync::Arc;
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
+use super::array::is_unit;
 use super::error::{SceneError, nearest};
 use super::field::{FARTHEST, Field, Fields, is_length};
 use super::height_map::{Encoding, MapError, source};
@@ -85,7 +86,7 @@ pub(super) fn read(scene: &Fields<'_>, maps: Maps<'_>) -> Result<Surface, SceneE
 fn plane(table: &Fields<'_>) -> Result<Surface, SceneError> {
     let normal = table.read("normal", DVec3::Y, Field::direction)?;
     // n·r = d holds for any length of n if d grows with it.
-    let length = normal.length();
+    let length = if is_unit(normal) { 1.0 } else { normal.length() };
     let distance = table.read("distance", 0.0, |distance| {
         distance.number("a number no farther than 1e9 from 0 along the unit normal", |distance| {
             (distance / length).abs() <= FARTHEST

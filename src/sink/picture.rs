@@ -81,6 +81,16 @@ impl Picture {
         matches!(self, Self::Height | Self::Normal | Self::Steps)
     }
 
+    /// Colour at place `t`, 0..=1, between the two ends of the picture's ramp; `None` where its
+    /// colours are no ramp.
+    pub fn ramp(self, t: f64) -> Option<[u8; 3]> {
+        match self {
+            Self::Color | Self::Normal => None,
+            Self::Height => Some(ramp(&RELIEF, t)),
+            Self::Steps | Self::Error | Self::Cycles => Some(ramp(&SEQUENCE, t)),
+        }
+    }
+
     /// The picture of a frame; `None` if the frame has no buffers and the picture needs them, and
     /// for `Error` and `Cycles`, which a frame does not hold: see [`error`] and [`cycles`].
     pub fn of_frame(self, frame: &Frame) -> Option<Painted> {
@@ -205,7 +215,7 @@ const RELIEF: [[u8; 3]; 6] =
     [[18, 36, 86], [22, 86, 104], [56, 130, 88], [150, 158, 80], [222, 184, 122], [253, 240, 222]];
 
 /// Colour at place `t` of a ramp, clamped to 0..=1, between evenly spaced sRGB colours.
-fn ramp(colors: &[[u8; 3]], t: f64) -> [u8; 3] {
+pub fn ramp(colors: &[[u8; 3]], t: f64) -> [u8; 3] {
     let last = colors.len() - 1;
     let place = t.clamp(0.0, 1.0) * last as f64;
     let below = (place as usize).min(last - 1);

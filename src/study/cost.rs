@@ -197,15 +197,7 @@ impl Measure<'_> {
             })
             .collect();
         let frame_pixels = f64::from(setup.columns) * f64::from(setup.lines);
-        let all = self.cycles.lines.len() == setup.lines as usize;
-        let cycles = if all {
-            clock.cycles()
-        } else {
-            // The pipeline fills once, however many lines are counted.
-            let fill: u64 = clock.occupancy().map(|(stage, _)| u64::from(stage.latency)).sum();
-            let flowing = (clock.cycles() - fill) as f64;
-            fill + (flowing / pixels * frame_pixels).round() as u64
-        };
+        let cycles = frame_cycles(setup, clock);
         let additions_per_pixel: f64 = units.iter().map(|unit| unit.additions_per_pixel).sum();
         Cost {
             cycle_lines: self.cycles.lines.len(),
@@ -220,6 +212,18 @@ impl Measure<'_> {
             units,
         }
     }
+}
+
+/// Cycles of the whole frame, from a clock that took some of its lines; of all lines, exactly.
+pub fn frame_cycles<W: World>(setup: &Setup<W>, clock: &Clock) -> u64 {
+    let frame_pixels = u64::from(setup.columns) * u64::from(setup.lines);
+    if clock.items() == frame_pixels {
+        return clock.cycles();
+    }
+    // The pipeline fills once, however many lines are counted.
+    let fill: u64 = clock.occupancy().map(|(stage, _)| u64::from(stage.latency)).sum();
+    let flowing = clock.cycles().saturating_sub(fill) as f64;
+    fill + (flowing / clock.items().max(1) as f64 * frame_pixels as f64).round() as u64
 }
 
 /// Adds the reads of a line: of the stepper, the interpolator and the shader.

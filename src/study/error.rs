@@ -123,37 +123,69 @@ struct Seen {
     color: [u8; 3],
 }
 
-struct Look<'a> {
+/// Fixed point, the units in f64 and the oracle of one frame, set up to compare any of its pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct Comparison<'a, W: Complete> {
+    /// The plan of all three.
+    pub plan: &'a Plan,
+    /// The machine.
+    pub fixed: &'a Setup<W>,
+    /// The same units in f64.
+    pub real: &'a Setup<Real>,
+    /// The closed form.
+    pub oracle: &'a Oracle,
+}
+
+impl<W: Complete> Comparison<'_, W> {
+    /// Errors of all sampled pixels, line by line.
+    pub fn pixels(&self, sample: &Sample) -> Vec<PixelError> {
+        let real = look(self.plan, self.real, sample);
+        let fixed = look(self.plan, self.fixed, sample);
+        let lines: Vec<_> = sample.lines.iter().zip(fixed.iter().zip(&real)).collect();
+        lines
+            .par_iter()
+            .flat_map_iter(|(line, (fixed, real))| {
+                sample.columns.iter().zip(fixed.iter().zip(real.iter())).map(
+                    move |(&column, (fixed, real))| one(self.oracle, **line, column, *fixed, *real),
+                )
+            })
+            .collect()
+    }
+}
+
+/// The sampled pixels of the line-by-line processor, by line.
+fn look<W: Complete>(plan: &Plan, setup: &Setup<W>, sample: &Sample) -> Vec<Vec<Seen>> {
+    let reader = Reader::new(plan);
+    let mut line = Line::new(&setup.world, sample.columns.iter().copied());
+    let mut lines = Vec::with_capacity(sample.lines.len());
+    processor::run_lines(setup, &mut line, sample.lines.iter().copied(), |line| {
+        let seen = (0..line.len()).map(|i| Seen {
+            hit: line.hit[i],
+            point: reader.pixel(line, i).map(|pixel| pixel.point),
+            color: line.color[i],
+        });
+        lines.push(seen.collect());
+    });
+    lines
+}
+
+struct Compare<'a> {
     scene: &'a Scene,
     plan: &'a Plan,
     sample: &'a Sample,
 }
 
-impl InFixedWorld for Look<'_> {
-    type Output = Result<Vec<Vec<Seen>>, SetupError>;
+impl InFixedWorld for Compare<'_> {
+    type Output = Result<Vec<PixelError>, SetupError>;
 
     fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-        self.look(world)
-    }
-}
-
-impl Look<'_> {
-    /// The sampled pixels of the line-by-line processor in a world, by line.
-    fn look<W: Complete>(&self, world: W) -> Result<Vec<Vec<Seen>>, SetupError> {
-        let memory = Memory::new(&world, self.scene, self.plan)?;
-        let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
-        let reader = Reader::new(self.plan);
-        let mut line = Line::new(&world, self.sample.columns.iter().copied());
-        let mut lines = Vec::with_capacity(self.sample.lines.len());
-        processor::run_lines(&setup, &mut line, self.sample.lines.iter().copied(), |line| {
-            let seen = (0..line.len()).map(|i| Seen {
-                hit: line.hit[i],
-                point: reader.pixel(line, i).map(|pixel| pixel.point),
-                color: line.color[i],
-            });
-            lines.push(seen.collect());
-        });
-        Ok(lines)
+        let Self { scene, plan, sample } = self;
+        let memory = Memory::new(&Real, scene, plan)?;
+        let real = Setup::new(Real, scene, plan, memory.as_ref())?;
+        let memory = Memory::new(&world, scene, plan)?;
+        let fixed = Setup::new(world, scene, plan, memory.as_ref())?;
+        let oracle = engine::oracle(scene, plan);
+        Ok(Comparison { plan, fixed: &fixed, real: &real, oracle: &oracle }.pixels(sample))
     }
 }
 
@@ -167,22 +199,7 @@ pub fn pixels(
     world: &FixedWorld,
     sample: &Sample,
 ) -> Result<Vec<PixelError>, SetupError> {
-    let look = Look { scene, plan, sample };
-    let real = look.look(Real)?;
-    let fixed = world.run(look)?;
-    let oracle = engine::oracle(scene, plan);
-    let lines: Vec<_> = sample.lines.iter().zip(fixed.iter().zip(&real)).collect();
-    Ok(lines
-        .par_iter()
-        .flat_map_iter(|(line, (fixed, real))| {
-            let oracle = &oracle;
-            sample
-                .columns
-                .iter()
-                .zip(fixed.iter().zip(real.iter()))
-                .map(move |(&column, (fixed, real))| one(oracle, **line, column, *fixed, *real))
-        })
-        .collect())
+    world.run(Compare { scene, plan, sample })
 }
 
 fn one(oracle: &Oracle, line: u32, column: u32, fixed: Seen, real: Seen) -> PixelError {

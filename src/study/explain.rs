@@ -1,6 +1,7 @@
 //! One pixel, register by register, from set-up to colour: fixed, real and oracle side by side.
 
 mod closed;
+pub mod text;
 mod trace;
 
 use serde::Serialize;

@@ -1,0 +1,161 @@
+//! `terraline view`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::Stop;
+use super::scene_args::SceneArgs;
+
+/// Open a window: the scan as it is produced, flown by mouse and keys.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: terraline view flight --size 960x600\n\
+                        Keys: H in the window, or docs/window.md")]
+pub struct View {
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    /// Window pixels per raster pixel, in both directions.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=32))]
+    scale: u32,
+
+    /// Show so many frames and end.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    frames: Option<u32>,
+
+    /// Write the window as it is after the last frame, drawn to its end.
+    #[arg(long, value_name = "OUT.png", requires = "frames")]
+    screenshot: Option<PathBuf>,
+
+    /// Input of the frames, a word for each, as in "w w 3 / h"; docs/window.md lists the words.
+    #[arg(long, value_name = "WORDS", requires = "frames")]
+    keys: Option<String>,
+}
+
+#[cfg(not(feature = "window"))]
+impl View {
+    pub fn run(&self) -> Result<(), Stop> {
+        let Self { scene: _, scale: _, frames: _, screenshot: _, keys: _ } = self;
+        Err(Stop::BadInput(
+            "view: this program was built without its window (feature `window`); build it with \
+             that feature, or use `terraline render -o frame.png` to draw into a file"
+                .into(),
+        ))
+    }
+}
+
+#[cfg(feature = "window")]
+mod open {
+    use std::path::Path;
+
+    use super::super::report;
+    use super::super::scene_args::{Planned, keep_inputs};
+    use super::{Stop, View};
+    use crate::engine::Engine;
+    use crate::scene::{Scene, Surface};
+    use crate::sink::{check_writable, png};
+    use crate::view::drawing::{Drawing, MAX_PIXELS};
+    use crate::view::layout::Layout;
+    use crate::view::run;
+    use crate::view::script;
+    use crate::view::session::Session;
+    use crate::view::window::Window;
+
+    /// Largest window that opens unasked: scenes with a larger raster get a coarser one.
+    const UNASKED: (u32, u32) = (1280, 1024);
+
+    impl View {
+        pub fn run(&self) -> Result<(), Stop> {
+            let script = script::parse(self.keys.as_deref().unwrap_or_default())
+                .map_err(|reason| Stop::BadInput(format!("--keys: {reason}")))?;
+            let frames = self.frames.unwrap_or_default();
+            if script.len() > frames as usize && self.keys.is_some() {
+                return Err(Stop::BadInput(format!(
+                    "--keys: these words take {} frames; give --frames {0} or more",
+                    script.len()
+                )));
+            }
+            let planned = self.scene.load()?;
+            if let Some(path) = &self.screenshot {
+                keep_inputs([path.as_path()], &self.scene.inputs(&planned))?;
+                check_writable(path)?;
+            }
+            let layout = self.layout(&planned)?;
+            let map = self.map(&planned.scene);
+            let engine = if planned.world.wraps() { Engine::Fast } else { Engine::Processor };
+            let scene = alone(&planned);
+            let title = format!("{} - terraline", scene.name);
+            let mut session = Session::new(scene, planned.plan.full, map, engine, layout);
+            let order = session.order().unwrap_or_else(|| unreachable!("the first one is new"));
+            let drawing = Drawing::start(order)
+                .map_err(|error| Stop::BadInput(format!("{}: {error}", planned.scene.name)))?;
+            let mut window =
+                Window::open(&title, layout.width, layout.height).map_err(no_display)?;
+            let mut print = |text: &str| report::print(text);
+            let mut view = run::View::new(&mut window, session, drawing, &mut print);
+            if self.frames.is_none() {
+                return Ok(view.live()?);
+            }
+            let canvas = view.scripted(&script, frames)?;
+            if let Some(path) = &self.screenshot {
+                let (width, height) = canvas.size();
+                png::write(path, width, height, &canvas.bytes())?;
+            }
+            Ok(())
+        }
+
+        /// The window that shows the scene's raster, or the one asked for.
+        fn layout(&self, planned: &Planned) -> Result<Layout, Stop> {
+            let screen = &planned.plan.screen;
+            let (mut columns, mut lines) = (screen.columns, screen.lines);
+            let scale = self.scale;
+            if !self.scene.asks_for_size() {
+                let fit = |pixels: u32, most: u32| f64::from(most) / f64::from(pixels * scale);
+                let share = fit(columns, UNASKED.0).min(fit(lines, UNASKED.1)).min(1.0);
+                let part = |pixels: u32| ((f64::from(pixels) * share) as u32).max(1);
+                (columns, lines) = (part(columns), part(lines));
+            }
+            let pixels = u64::from(columns) * u64::from(lines) * u64::from(scale).pow(2);
+            if pixels > MAX_PIXELS as u64 {
+                return Err(Stop::BadInput(format!(
+                    "--size: a window of {} x {} is too large; give a raster and a scale of at \
+                     most {MAX_PIXELS} window pixels in all",
+                    columns * scale,
+                    lines * scale
+                )));
+            }
+            let side = |pixels: u32| (pixels * scale) as usize;
+            Ok(Layout::new(side(columns), side(lines), scale as usize))
+        }
+
+        /// The scene's height map as a path that holds from any folder.
+        fn map(&self, scene: &Scene) -> String {
+            let Surface::Terrain(terrain) = &scene.surface else { return String::new() };
+            let folder = self.scene.scene.as_deref().and_then(|file| Path::new(file).parent());
+            let beside = folder.unwrap_or(Path::new("")).join(&terrain.source);
+            let path = if beside.exists() { beside } else { terrain.source.clone().into() };
+            std::path::absolute(&path).unwrap_or(path).display().to_string()
+        }
+    }
+
+    /// The scene with the chosen screen as its first: what is copied out renders as it is seen.
+    fn alone(planned: &Planned) -> Scene {
+        let mut scene = planned.scene.clone();
+        let chosen = planned.plan.screen.name.as_str();
+        if let Some(at) = scene.screens.iter().position(|screen| screen.name == chosen) {
+            scene.screens[..=at].rotate_right(1);
+        }
+        scene
+    }
+
+    fn no_display(reason: String) -> Stop {
+        let display = match std::env::var("DISPLAY") {
+            Ok(name) if !name.is_empty() => format!("no window opens on display `{name}`"),
+            _ => "there is no display (DISPLAY is not set)".into(),
+        };
+        Stop::BadInput(format!(
+            "view: {display}: {reason}; start it where windows open, or use `terraline render -o \
+             frame.png` to draw into a file"
+        ))
+    }
+}

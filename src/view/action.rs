@@ -1,0 +1,82 @@
+//! What hands can ask for, and what that asks of the world outside.
+
+use crate::sink::picture::Picture;
+
+use super::camera::Course;
+
+/// A side of the divider.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Left of it, or everything where there is none.
+    Left,
+    /// Right of it.
+    Right,
+}
+
+/// What hands can ask for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Action {
+    /// Show another picture on a side.
+    Picture(Side, Picture),
+    /// Draw a side by the next engine.
+    NextEngine(Side),
+    /// The next shape of the finite function.
+    NextShape,
+    /// The next deformation.
+    NextDeformation,
+    /// Add to d of the weight 2^-d.
+    Weight(i32),
+    /// Put the divider up, or take it away.
+    ToggleDivider,
+    /// Move the divider to a place across the raster, 0..=1.
+    MoveDivider(f64),
+    /// Stop the scan or let it go on.
+    TogglePause,
+    /// Draw one line and stop.
+    OneLine,
+    /// The next speed up.
+    Faster,
+    /// The next speed down.
+    Slower,
+    /// Show the keys, or hide them.
+    ToggleHelp,
+    /// Show legends and status, or hide them.
+    TogglePanels,
+    /// Back to the scene's camera.
+    Reset,
+    /// Turn as if the scene were dragged by so many window pixels, right and down.
+    Drag(f64, f64),
+    /// Turn by degrees: heading to the left, nose up, right wing down.
+    Turn(f64, f64, f64),
+    /// Narrow the field of view by notches.
+    Zoom(f64),
+    /// Move along the line of sight by notches.
+    Dolly(f64),
+    /// Fly along a course for so many seconds.
+    Fly(Course, f64),
+    /// The cursor is at a place of the window, or has left it.
+    Point(Option<(i32, i32)>),
+    /// Explain the pixel at a place of the window.
+    Explain(i32, i32),
+    /// Save what is seen.
+    Screenshot,
+    /// Print the scene.
+    CopyScene,
+    /// Close the window.
+    Quit,
+}
+
+/// What an action asks of the world outside.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// Grant one line to the drawing.
+    Line,
+    /// Explain a pixel (column, line).
+    Explain(u32, u32),
+    /// Save what is seen.
+    Screenshot,
+    /// Print this scene file.
+    Print(String),
+    /// Close the window.
+    Quit,
+}

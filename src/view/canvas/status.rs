@@ -1,0 +1,153 @@
+//! The status line: craft, machine, time, and the pixel under the cursor.
+
+use crate::frame::Hit;
+use crate::scene::{Deformation, Extent, Scene, Surface};
+use crate::study::error::Sheet;
+use crate::study::explain::hit_name;
+
+use super::legend::figure;
+use super::panel::{MARGIN, height, rows, write};
+use super::{ALERT, Canvas, TEXT};
+use crate::view::camera;
+use crate::view::pane::Source;
+use crate::view::probe::{Modelled, Probe};
+use crate::view::session::Session;
+use crate::view::shown::{Shown, Timing};
+
+/// Draws the status line at the bottom and returns where it begins.
+pub(super) fn draw(canvas: &mut Canvas, session: &Session, shown: &Shown, timed: bool) -> i32 {
+    let font = canvas.font();
+    let (wide, tall) = (canvas.size().0 as i32, canvas.size().1 as i32);
+    let space = wide - 2 * MARGIN;
+    let mut lines: Vec<(String, _)> = Vec::new();
+    let mut add = |items: &[String], color| {
+        lines.extend(rows(font, items, "   ", space).into_iter().map(|row| (row, color)));
+    };
+    if let Some(trouble) = &shown.facts.trouble {
+        add(&[format!("cannot draw: {trouble}")], ALERT);
+    }
+    if let Some(notice) = session.notice() {
+        add(&[notice.to_owned()], ALERT);
+    }
+    match &shown.facts.probe {
+        Some(found) if session.pointed() == Some((found.column, found.line)) => {
+            add(&probe(found), TEXT);
+        }
+        _ => {}
+    }
+    add(&craft(session.scene()), TEXT);
+    add(&work(session, shown, timed), TEXT);
+
+    let row = height(font);
+    // In a small window the picture keeps two thirds; what is most urgent stands first.
+    let most = ((tall / 3 - 2 * MARGIN) / row).max(0) as usize;
+    lines.truncate(most);
+    if lines.is_empty() {
+        return tall;
+    }
+    let top = tall - lines.len() as i32 * row - 2 * MARGIN;
+    canvas.shade(0, top, wide as u32, (tall - top) as u32);
+    for (at, (text, color)) in lines.iter().enumerate() {
+        write(canvas, font, MARGIN, top + MARGIN + at as i32 * row, text, *color);
+    }
+    top
+}
+
+fn craft(scene: &Scene) -> Vec<String> {
+    // What rounds to nothing has no sign.
+    let tenth = |degrees: f64| (degrees * 10.0).round() / 10.0 + 0.0;
+    let [heading, pitch, roll] = camera::degrees(&scene.camera).map(tenth);
+    let (course, point) = camera::compass(heading);
+    let place = scene.camera.position;
+    let mut items = vec![
+        format!("at {:.2} {:.2} {:.2}", place.x, place.y, place.z),
+        format!("heading {heading:.1}° (compass {course:.1}° {point})"),
+        format!("pitch {pitch:+.1}°"),
+        format!("roll {roll:+.1}°"),
+    ];
+    if let Extent::FieldOfView(fov) = scene.screens[0].extent {
+        items.push(format!("field {:.1}°", fov.to_degrees()));
+    }
+    items.push("H help".into());
+    items
+}
+
+fn work(session: &Session, shown: &Shown, timed: bool) -> Vec<String> {
+    let scene = session.scene();
+    let mut items = Vec::new();
+    if let Surface::Terrain(_) = scene.surface {
+        let shape = scene.kernel.shape.name();
+        items.push(match scene.kernel.deformation {
+            Deformation::None => format!("{shape}, deformation 0"),
+            Deformation::Stretch => format!("{shape}, deformation 1"),
+            Deformation::Blend { weight_shift } => {
+                format!("{shape}, deformation 2, weight 2^-{weight_shift}")
+            }
+        });
+    }
+    let layout = session.layout();
+    let scale = if layout.scale > 1 { format!(" x {}", layout.scale) } else { String::new() };
+    let raster = format!("{}x{}{scale}", layout.columns, layout.lines);
+    items.push(format!("{raster}, {}", shown.facts.world));
+    items.push(pace(session, shown));
+    if timed && !shown.facts.timings.is_empty() {
+        let times: Vec<String> = shown.facts.timings.iter().map(time).collect();
+        items.push(times.join(", "));
+    }
+    items.extend(shown.facts.modelled.as_ref().map(modelled));
+    items
+}
+
+fn pace(session: &Session, shown: &Shown) -> String {
+    let pace = session.pace();
+    let line = match shown.scan.filter(|_| shown.by_lines) {
+        Some(line) => format!(", line {line}"),
+        None => String::new(),
+    };
+    match pace.lines_per_second() {
+        _ if pace.is_paused() => format!("paused{line}"),
+        None => "full rate".into(),
+        Some(1) => format!("1 line/s{line}"),
+        Some(speed) => format!("{speed} lines/s{line}"),
+    }
+}
+
+fn time(Timing { source, ms }: &Timing) -> String {
+    let name = match source {
+        Source::Fast => "fast",
+        Source::Processor => "processor",
+        Source::Real => "real",
+        Source::Oracle => "oracle",
+        Source::FixedError | Source::RealError => "errors",
+    };
+    if *ms < 10.0 { format!("{name} {ms:.1} ms") } else { format!("{name} {ms:.0} ms") }
+}
+
+fn modelled(Modelled { fps, clock_mhz, counted, lines }: &Modelled) -> String {
+    let sampled =
+        if counted < lines { format!(" ({counted} of {lines} lines)") } else { String::new() };
+    format!("machine {} frames/s at {} MHz{sampled}", figure(*fps), figure(*clock_mhz))
+}
+
+fn probe(probe: &Probe) -> Vec<String> {
+    let mut items = vec![format!("pixel {},{}", probe.column, probe.line)];
+    match probe.point {
+        Some(point) => {
+            let what = if probe.hit == Hit::Side { "side, rim" } else { "ground" };
+            items.push(format!("{what} {:.3} {:.3} {:.3}", point.x, point.y, point.z));
+            items.push(format!("step {}", probe.steps));
+        }
+        None => items.push(hit_name(probe.hit).into()),
+    }
+    items.push(match probe.cycles {
+        1 => "1 cycle".into(),
+        cycles => format!("{cycles} cycles"),
+    });
+    items.push(match (probe.error_px, probe.sheet) {
+        (Some(error), _) => format!("error {} px", figure(error)),
+        (None, Sheet::Silhouette) => "silhouette: the oracle sees another sheet".into(),
+        (None, Sheet::Beyond) => "beyond the registers".into(),
+        (None, _) => "as the oracle".into(),
+    });
+    items
+}

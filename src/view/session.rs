@@ -1,0 +1,352 @@
+//! What is being looked at and how. Actions change it; nothing here draws or waits.
+
+use std::sync::Arc;
+
+use crate::engine::Engine;
+use crate::scene::{Camera, Deformation, KernelShape, Scene, Screen, Surface, write};
+use crate::sink::picture::Picture;
+
+use super::action::{Action, Effect, Side};
+use super::camera;
+use super::drawing::Order;
+use super::ground;
+use super::layout::Layout;
+use super::pace::Pace;
+use super::pane::Pane;
+
+/// The state of the window.
+pub struct Session {
+    scene: Scene,
+    full: bool,
+    map: String,
+    first: (Camera, Screen),
+    panes: [Pane; 2],
+    divider: Option<f64>,
+    /// Of deformation 2, while another one is on.
+    weight_shift: u32,
+    pace: Pace,
+    layout: Layout,
+    cursor: Option<(i32, i32)>,
+    help: bool,
+    panels: bool,
+    notice: Option<String>,
+    changed: bool,
+}
+
+/// Notch of the wheel along the line of sight, seconds of flight.
+const DOLLY_SECONDS: f64 = 0.25;
+
+/// Speed: this share of the height above ground a second, and that of the map's width.
+const SPEED: (f64, f64) = (0.5, 1.0 / 300.0);
+
+/// Eyes are kept above the ground by this share of a cell.
+const CLEARANCE: f64 = 0.01;
+
+/// Largest d of a weight 2^-d that a key reaches; the words have no more bits.
+const LARGEST_SHIFT: u32 = 24;
+
+impl Session {
+    /// A scene whose first screen is looked at. `map` is the path of its height map for scenes
+    /// that are copied out.
+    #[must_use]
+    pub fn new(scene: Scene, full: bool, map: String, engine: Engine, layout: Layout) -> Self {
+        let pane = Pane { engine, picture: Picture::Color };
+        let right = Pane { picture: Picture::Steps, ..pane };
+        let mut session = Self {
+            first: (scene.camera.clone(), scene.screens[0].clone()),
+            weight_shift: match scene.kernel.deformation {
+                Deformation::Blend { weight_shift } => weight_shift,
+                _ => 2,
+            },
+            scene,
+            full,
+            map,
+            panes: [pane, right],
+            divider: None,
+            pace: Pace::default(),
+            layout,
+            cursor: None,
+            help: false,
+            panels: true,
+            notice: None,
+            changed: true,
+        };
+        session.resize(layout);
+        session
+    }
+
+    /// The scene as it is now.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Where the raster lies in the window.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// The panes that are seen, left first.
+    #[must_use]
+    pub fn panes(&self) -> &[Pane] {
+        &self.panes[..1 + usize::from(self.divider.is_some())]
+    }
+
+    /// Place of the divider across the raster, 0..=1.
+    #[must_use]
+    pub fn divider(&self) -> Option<f64> {
+        self.divider
+    }
+
+    /// Pace of the scan.
+    #[must_use]
+    pub fn pace(&self) -> Pace {
+        self.pace
+    }
+
+    /// Whether the keys are shown.
+    #[must_use]
+    pub fn shows_help(&self) -> bool {
+        self.help
+    }
+
+    /// Whether legends and status are shown.
+    #[must_use]
+    pub fn shows_panels(&self) -> bool {
+        self.panels
+    }
+
+    /// What the last action has to say.
+    #[must_use]
+    pub fn notice(&self) -> Option<&str> {
+        self.notice.as_deref()
+    }
+
+    /// Says something until the next action.
+    pub fn tell(&mut self, notice: String) {
+        self.notice = Some(notice);
+    }
+
+    /// The raster pixel (column, line) under the cursor.
+    #[must_use]
+    pub fn pointed(&self) -> Option<(u32, u32)> {
+        let (x, y) = self.cursor?;
+        self.layout.pixel(x, y)
+    }
+
+    /// What is to be drawn, if that is something else than at the last call.
+    pub fn order(&mut self) -> Option<Order> {
+        std::mem::take(&mut self.changed).then(|| Order {
+            scene: Arc::new(self.scene.clone()),
+            full: self.full,
+            panes: self.panes().to_vec(),
+            by_lines: !self.pace.is_full(),
+        })
+    }
+
+    /// Takes the raster of another window.
+    pub fn resize(&mut self, layout: Layout) {
+        self.layout = layout;
+        let screen = &self.scene.screens[0];
+        let (columns, lines) = (layout.columns as u32, layout.lines as u32);
+        if (screen.columns, screen.lines) != (columns, lines) {
+            self.scene.screens[0] = screen.resized(columns, lines);
+            self.changed = true;
+        }
+    }
+
+    /// Lines that time has earned.
+    pub fn advance(&mut self, seconds: f64) -> u32 {
+        self.pace.advance(seconds)
+    }
+
+    /// Does an action.
+    pub fn act(&mut self, action: Action) -> Option<Effect> {
+        if !matches!(action, Action::Point(_)) {
+            self.notice = None;
+        }
+        match action {
+            Action::Picture(side, picture) => self.set_pane(side, |pane| Pane { picture, ..pane }),
+            Action::NextEngine(side) => self.set_pane(side, Pane::next_engine),
+            Action::NextShape => self.next_shape(),
+            Action::NextDeformation => self.next_deformation(),
+            Action::Weight(step) => self.add_weight(step),
+            Action::ToggleDivider => {
+                self.divider = if self.divider.is_some() { None } else { Some(0.5) };
+                self.changed = true;
+            }
+            Action::MoveDivider(place) => {
+                self.divider = self.divider.map(|_| place.clamp(0.0, 1.0));
+            }
+            Action::TogglePause => self.set_pace(Pace::toggle_pause),
+            Action::Faster => self.set_pace(Pace::faster),
+            Action::Slower => self.set_pace(Pace::slower),
+            Action::OneLine => {
+                self.set_pace(Pace::pause);
+                return Some(Effect::Line);
+            }
+            Action::ToggleHelp => self.help = !self.help,
+            Action::TogglePanels => self.panels = !self.panels,
+            Action::Reset => {
+                self.scene.camera = self.first.0.clone();
+                let Layout { columns, lines, .. } = self.layout;
+                self.scene.screens[0] = self.first.1.resized(columns as u32, lines as u32);
+                self.changed = true;
+            }
+            Action::Drag(right, down) => {
+                let degrees =
+                    camera::degrees_per_pixel(&self.scene.screens[0]) / self.layout.scale as f64;
+                self.fly(|craft, _| camera::turn(craft, right * degrees, down * degrees, 0.0));
+            }
+            Action::Turn(heading, pitch, roll) => {
+                self.fly(|craft, _| camera::turn(craft, heading, pitch, roll));
+            }
+            Action::Zoom(notches) => {
+                camera::zoom(&mut self.scene.screens[0], notches);
+                self.changed = true;
+            }
+            Action::Dolly(notches) => {
+                let distance = self.speed() * DOLLY_SECONDS * notches;
+                self.fly(|craft, grain| camera::dolly(craft, distance, grain));
+            }
+            Action::Fly(course, seconds) => {
+                let distance = self.speed() * seconds;
+                self.fly(|craft, grain| camera::fly(craft, course, distance, grain));
+            }
+            Action::Point(place) => self.cursor = place,
+            Action::Explain(x, y) => {
+                let (column, line) = self.layout.pixel(x, y)?;
+                self.notice = Some(format!("pixel {column},{line} explained in the terminal"));
+                return Some(Effect::Explain(column, line));
+            }
+            Action::Screenshot => return Some(Effect::Screenshot),
+            Action::CopyScene => {
+                self.notice = Some("the scene is printed in the terminal".into());
+                return Some(Effect::Print(write::toml(&self.scene, &self.map)));
+            }
+            Action::Quit => return Some(Effect::Quit),
+        }
+        None
+    }
+
+    fn set_pane(&mut self, side: Side, change: impl FnOnce(Pane) -> Pane) {
+        if side == Side::Right && self.divider.is_none() {
+            self.divider = Some(0.5);
+        }
+        let pane = &mut self.panes[usize::from(side == Side::Right)];
+        *pane = change(*pane);
+        self.changed = true;
+    }
+
+    fn set_pace(&mut self, change: impl FnOnce(&mut Pace)) {
+        let before = self.pace.is_full();
+        change(&mut self.pace);
+        // Between two speeds the scan goes on where it is.
+        self.changed |= before != self.pace.is_full();
+    }
+
+    /// Whether the scene has a kernel; says so if it has none.
+    fn has_kernel(&mut self) -> bool {
+        let terrain = matches!(self.scene.surface, Surface::Terrain(_));
+        if !terrain {
+            self.notice = Some("a plane has no kernel".into());
+        }
+        terrain
+    }
+
+    fn next_shape(&mut self) {
+        if !self.has_kernel() {
+            return;
+        }
+        self.scene.kernel.shape = match self.scene.kernel.shape {
+            KernelShape::Cosine => KernelShape::Parabola,
+            KernelShape::Parabola => KernelShape::Exponential,
+            KernelShape::Exponential => KernelShape::Hat,
+            KernelShape::Hat => KernelShape::Cosine,
+        };
+        self.kernel_changed();
+    }
+
+    fn next_deformation(&mut self) {
+        if !self.has_kernel() {
+            return;
+        }
+        let weight_shift = self.weight_shift;
+        self.scene.kernel.deformation = match self.scene.kernel.deformation {
+            Deformation::None => Deformation::Stretch,
+            Deformation::Stretch => Deformation::Blend { weight_shift },
+            Deformation::Blend { .. } => Deformation::None,
+        };
+        self.kernel_changed();
+    }
+
+    fn add_weight(&mut self, step: i32) {
+        if !self.has_kernel() {
+            return;
+        }
+        let Deformation::Blend { weight_shift } = self.scene.kernel.deformation else {
+            self.notice = Some("only deformation 2 has a weight: press J".into());
+            return;
+        };
+        // A scene may ask for more than the keys reach.
+        let largest = LARGEST_SHIFT.max(weight_shift);
+        let weight_shift = weight_shift.saturating_add_signed(step).min(largest);
+        self.weight_shift = weight_shift;
+        self.scene.kernel.deformation = Deformation::Blend { weight_shift };
+        self.kernel_changed();
+    }
+
+    fn kernel_changed(&mut self) {
+        self.changed = true;
+        self.keep_above_ground();
+    }
+
+    /// Changes the camera; the function is given the grain of positions.
+    fn fly(&mut self, change: impl FnOnce(&mut Camera, f64)) {
+        let grain = match &self.scene.surface {
+            Surface::Terrain(terrain) => terrain.cell.min_element(),
+            Surface::Plane(plane) => plane.checker,
+        };
+        change(&mut self.scene.camera, grain);
+        self.keep_above_ground();
+        self.changed = true;
+    }
+
+    /// Scene units per second.
+    fn speed(&self) -> f64 {
+        let height = self.eye_above_ground().map_or(0.0, f64::abs);
+        let width = match &self.scene.surface {
+            Surface::Terrain(terrain) => {
+                let nodes = terrain.map.columns().max(terrain.map.rows()) as f64;
+                nodes * terrain.cell.max_element()
+            }
+            Surface::Plane(plane) => 100.0 * plane.checker,
+        };
+        SPEED.0 * height + SPEED.1 * width
+    }
+
+    /// Height of the eye above the surface, scene units; `None` beside the map.
+    fn eye_above_ground(&self) -> Option<f64> {
+        let eye = self.eye();
+        ground::height(&self.scene, eye).map(|height| eye.y - height)
+    }
+
+    /// Centre of projection, scene units.
+    #[must_use]
+    pub fn eye(&self) -> glam::DVec3 {
+        crate::plan::geometry::Geometry::new(&self.scene.camera, &self.scene.screens[0]).eye
+    }
+
+    /// No engine draws from under the ground of a height map: the craft is lifted above it.
+    fn keep_above_ground(&mut self) {
+        let Surface::Terrain(terrain) = &self.scene.surface else { return };
+        let clearance = CLEARANCE * terrain.cell.max_element();
+        if let Some(above) = self.eye_above_ground()
+            && above < clearance
+        {
+            self.scene.camera.position.y += clearance - above;
+            self.notice = Some("kept above the ground: E climbs".into());
+        }
+    }
+}

@@ -1,0 +1,315 @@
+//! The window without a window: sessions, drawing and canvas behind a glass of the tests' own.
+#![cfg(feature = "window")]
+
+#[path = "window/display.rs"]
+mod display;
+#[path = "window/golden.rs"]
+mod golden;
+#[path = "window/scan.rs"]
+mod scan;
+
+use std::collections::VecDeque;
+
+use proptest::prelude::*;
+use terraline::engine::{self, Engine, FixedWorld, InFixedWorld};
+use terraline::fast::{self, enter::Enterable};
+use terraline::frame::{Frame, Hit};
+use terraline::plan::Plan;
+use terraline::scene::file::{Document, parse};
+use terraline::scene::{Scene, builtin};
+use terraline::setup::{Memory, Setup};
+use terraline::sink::picture::Picture;
+use terraline::study::explain::{explain, text::text};
+use terraline::view::action::Action;
+use terraline::view::canvas::Canvas;
+use terraline::view::drawing::{Drawing, Order};
+use terraline::view::input::Input;
+use terraline::view::layout::Layout;
+use terraline::view::pane::Pane;
+use terraline::view::run::{Glass, RunError, View};
+use terraline::view::script;
+use terraline::view::session::Session;
+use terraline::word::Complete;
+
+/// A glass whose size changes from frame to frame, the last one staying.
+struct Sizes(VecDeque<(usize, usize)>);
+
+impl Glass for Sizes {
+    fn size(&self) -> (usize, usize) {
+        self.0[0]
+    }
+
+    fn poll(&mut self) -> Option<Input> {
+        if self.0.len() > 1 {
+            self.0.pop_front();
+        }
+        Some(Input::default())
+    }
+
+    fn present(&mut self, canvas: &Canvas) -> Result<(), String> {
+        assert_eq!(canvas.size(), self.size());
+        assert_eq!(canvas.pixels().len(), self.size().0 * self.size().1);
+        Ok(())
+    }
+}
+
+fn scene(name: &str, sets: &[&str]) -> Scene {
+    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+    builtin::load(Some(name), &sets).expect("a built-in scene")
+}
+
+/// A run in glasses of these sizes: the last canvas, and what was printed.
+fn run_in(
+    scene: Scene,
+    scale: usize,
+    sizes: &[(usize, usize)],
+    keys: &str,
+) -> Result<(Canvas, Vec<String>), RunError> {
+    let script = script::parse(keys).expect("keys");
+    let frames = (script.len() + 1).max(sizes.len()) as u32;
+    let mut glass = Sizes(sizes.iter().copied().collect());
+    let layout = Layout::new(sizes[0].0, sizes[0].1, scale);
+    let mut session = Session::new(scene, false, "map.png".into(), Engine::Fast, layout);
+    let drawing = Drawing::start(session.order().expect("the first order"))
+        .expect("a scene that can be drawn");
+    let mut printed = Vec::new();
+    let mut print = |text: &str| printed.push(text.to_owned());
+    let mut view = View::new(&mut glass, session, drawing, &mut print);
+    let canvas = view.scripted(&script, frames)?.clone();
+    drop(view);
+    Ok((canvas, printed))
+}
+
+fn run(scene: Scene, size: (usize, usize), keys: &str) -> (Canvas, Vec<String>) {
+    run_in(scene, 1, &[size], keys).expect("a window that stays open")
+}
+
+struct Fast<'a>(&'a Scene, &'a Plan);
+
+impl InFixedWorld for Fast<'_> {
+    type Output = Frame;
+    fn run<W: Complete + Enterable>(self, world: W) -> Frame {
+        let memory = Memory::new(&world, self.0, self.1).expect("a scene that can be drawn");
+        let setup =
+            Setup::new(world, self.0, self.1, memory.as_ref()).expect("a scene that can be drawn");
+        fast::render(&setup, self.1, true)
+    }
+}
+
+/// The frame of a scene as `render` draws it.
+fn frame(scene: &Scene, size: (usize, usize), engine: Engine) -> Frame {
+    let mut scene = scene.clone();
+    scene.screens[0] = scene.screens[0].resized(size.0 as u32, size.1 as u32);
+    let plan = Plan::new(&scene, None, false).expect("a scene that can be drawn");
+    match engine {
+        Engine::Oracle => engine::draw_oracle(&scene, &plan),
+        Engine::Real => {
+            let memory = Memory::new(&terraline::word::real::Real, &scene, &plan)
+                .expect("a scene that can be drawn");
+            engine::draw_real(&scene, &plan, memory.as_ref(), true)
+                .expect("a scene that can be drawn")
+        }
+        _ => FixedWorld::of(&scene, &plan)
+            .expect("a scene that can be drawn")
+            .run(Fast(&scene, &plan)),
+    }
+}
+
+#[test]
+fn the_window_shows_the_frames_of_all_engines() {
+    let size = (96, 64);
+    let engines = [Engine::Fast, Engine::Processor, Engine::Real, Engine::Oracle];
+    for name in ["overview", "valley", "plane"] {
+        let scene = scene(name, &[]);
+        for (presses, engine) in engines.into_iter().enumerate() {
+            let (canvas, _) = run(scene.clone(), size, &format!("tab {}", "g ".repeat(presses)));
+            assert_eq!(canvas.bytes(), frame(&scene, size, engine).color, "{name} {engine:?}");
+        }
+        let heights = Picture::Height.of_frame(&frame(&scene, size, Engine::Fast)).unwrap();
+        assert_eq!(run(scene, size, "2 tab").0.bytes(), heights.pixels, "{name}");
+    }
+}
+
+#[test]
+fn the_divider_parts_two_pictures() {
+    let (width, size) = (96, (96, 64));
+    let scene = scene("flight", &[]);
+    // The cursor is in the way of nothing: panels are off.
+    let (canvas, _) = run(scene.clone(), size, "tab 3 shift+4 drag=48,20,24,20");
+    let frame = frame(&scene, size, Engine::Fast);
+    let [left, right] =
+        [Picture::Normal, Picture::Steps].map(|picture| picture.of_frame(&frame).unwrap().pixels);
+    for (index, pixel) in canvas.bytes().into_iter().enumerate() {
+        let (x, y) = (index % width, index / width);
+        // Rows of the grip, columns of the divider.
+        if (22..43).contains(&y) || (22..27).contains(&x) {
+            continue;
+        }
+        assert_eq!(pixel, if x < 24 { left[index] } else { right[index] }, "{x},{y}");
+    }
+}
+
+#[test]
+fn a_raster_pixel_is_a_square_of_window_pixels() {
+    let scene = scene("overview", &[]);
+    let (canvas, _) = run_in(scene.clone(), 3, &[(100, 62)], "tab").unwrap();
+    let frame = frame(&scene, (33, 20), Engine::Fast);
+    for (index, pixel) in canvas.bytes().into_iter().enumerate() {
+        let (x, y) = (index % 100, index / 100);
+        // One pixel of 100 is over, and two of 62: they are black, on either side.
+        let inside = (0..99).contains(&x) && (1..61).contains(&y);
+        let expected = if inside { frame.color[(y - 1) / 3 * 33 + x / 3] } else { [0; 3] };
+        assert_eq!(pixel, expected, "{x},{y}");
+    }
+}
+
+#[test]
+fn a_copied_scene_gives_the_frame_that_is_seen() {
+    let size = (96, 64);
+    let keys = "left up w d wheel=2 k ] drag=10,10,30,5 tab c";
+    let (canvas, printed) = run(scene("flight", &[]), size, keys);
+    assert_eq!(printed.len(), 1);
+    let document = Document {
+        name: "copied",
+        file: "copied.toml",
+        folder: std::path::Path::new(""),
+        text: &printed[0],
+    };
+    let copied = parse(&document, &[]).unwrap();
+    assert_eq!((copied.screens[0].columns, copied.screens[0].lines), (96, 64));
+    assert_eq!(canvas.bytes(), frame(&copied, size, Engine::Fast).color);
+}
+
+#[test]
+fn a_click_prints_what_explain_prints() {
+    let scene = scene("valley", &["screen.size=[96, 64]"]);
+    for keys in ["click=40,50", "move=40,50 x"] {
+        let (_, printed) = run(scene.clone(), (96, 64), keys);
+        let plan = Plan::new(&scene, None, false).unwrap();
+        let world = FixedWorld::of(&scene, &plan).unwrap();
+        let explanation = explain(&scene, &plan, &world, 40, 50).unwrap();
+        assert_eq!(printed, [text("valley", world.name(), &explanation)], "{keys}");
+    }
+}
+
+#[test]
+fn the_pixel_under_the_cursor_is_that_of_the_frame() {
+    let scene = scene("overview", &["screen.size=[96, 64]"]);
+    let drawn = frame(&scene, (96, 64), Engine::Fast);
+    let buffers = drawn.buffers.as_ref().unwrap();
+    let layout = Layout::new(96, 64, 1);
+    let mut session = Session::new(scene, false, String::new(), Engine::Fast, layout);
+    let drawing = Drawing::start(session.order().unwrap()).unwrap();
+    for (column, line) in [(0, 0), (50, 40), (95, 63), (20, 20)] {
+        drawing.look(Some((column, line)));
+        drawing.finish();
+        let probe = drawing.shown().facts.probe.unwrap();
+        let index = line as usize * 96 + column as usize;
+        assert_eq!((probe.hit, probe.steps), (drawn.hit[index], buffers.steps[index]));
+        match probe.point {
+            Some(point) => {
+                let [x, z] = [buffers.ground_x[index], buffers.ground_z[index]];
+                assert_eq!([point.x, point.y, point.z], [x, buffers.height[index], z]);
+                assert!(probe.cycles > 10 && probe.error_px.is_some_and(|error| error < 0.1));
+            }
+            None => assert_eq!((probe.hit, probe.error_px), (Hit::Sky, None)),
+        }
+    }
+    assert!(drawing.shown().facts.modelled.is_some_and(|m| m.fps > 1.0 && m.counted == 16));
+}
+
+#[test]
+fn dragging_moves_the_scene_with_the_mouse() {
+    // What is under the cursor at first is under it at the end, up to perspective.
+    let scene = scene("overview", &[]);
+    let size = (300, 200);
+    let layout = Layout::new(size.0, size.1, 1);
+    let mut session = Session::new(scene, false, String::new(), Engine::Fast, layout);
+    let place = |session: &Session| {
+        let scene = session.scene();
+        let plan = Plan::new(scene, None, false).unwrap();
+        let oracle = engine::oracle(scene, &plan);
+        move |point| oracle.project(point).unwrap()
+    };
+    let scene = session.scene();
+    let plan = Plan::new(scene, None, false).unwrap();
+    let point = engine::oracle(scene, &plan).pixel(100.0, 150.0).point;
+    let before = place(&session)(point);
+    session.act(Action::Drag(20.0, 10.0));
+    let after = place(&session)(point);
+    let (down, right) = (after.0 - before.0, after.1 - before.1);
+    assert!((down - 10.0).abs() < 3.0 && (7.0..22.0).contains(&right), "{right} {down}");
+}
+
+#[test]
+fn the_craft_stays_above_the_ground() {
+    let (sunk, _) = run(scene("valley", &[]), (200, 120), &"q ".repeat(60));
+    let (shown, _) = run(scene("valley", &[]), (200, 120), "wait");
+    assert_ne!(sunk.pixels(), shown.pixels());
+
+    let layout = Layout::new(64, 48, 1);
+    let mut session =
+        Session::new(scene("valley", &[]), false, String::new(), Engine::Fast, layout);
+    let down = terraline::view::camera::Course { up: -1.0, ..Default::default() };
+    let ahead = terraline::view::camera::Course { forward: 1.0, up: -1.0, right: 0.3 };
+    for step in 0..400 {
+        let course = if step < 40 { down } else { ahead };
+        session.act(Action::Fly(course, 0.1));
+        let order = session.order().unwrap();
+        let drawing = Drawing::start(order);
+        assert!(drawing.is_ok(), "step {step}: {:?}", drawing.err());
+        if session.notice().is_some() && step > 200 {
+            break;
+        }
+    }
+    assert!(session.notice().is_some_and(|notice| notice.contains("above the ground")));
+}
+
+#[test]
+fn a_closed_window_ends_the_script() {
+    let result = run_in(scene("plane", &[]), 1, &[(40, 30)], "w w esc w");
+    assert!(matches!(result, Err(RunError::Closed(2, 5))));
+}
+
+#[test]
+fn a_new_order_and_the_end_do_not_wait_for_a_long_frame() {
+    // A frame of errors of this size takes many seconds.
+    let scene = scene("flight", &[]);
+    let layout = Layout::new(1600, 1200, 1);
+    let mut session = Session::new(scene, false, String::new(), Engine::Fast, layout);
+    let order = session.order().unwrap();
+    let drawing = Drawing::start(order.clone()).unwrap();
+    let pane = |picture| vec![Pane { engine: Engine::Fast, picture }];
+    drawing.order(Order { panes: pane(Picture::Error), ..order.clone() });
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    let start = std::time::Instant::now();
+    drawing.order(Order { panes: pane(Picture::Error), ..order });
+    drop(drawing);
+    assert!(start.elapsed().as_secs_f64() < 3.0, "{:?}", start.elapsed());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn any_keys_in_any_window_are_drawn(
+        words in prop::collection::vec(
+            prop::sample::select(vec![
+                "w", "s", "a", "d", "e", "q", "W", "1", "2", "3", "4", "5", "6", "shift+1",
+                "shift+5", "shift+6", "g", "G", "k", "j", "[", "]", "/", "space", ".", "+", "-",
+                "-", "h", "tab", "r", "left", "right", "up", "down", "shift+left", "wheel=5",
+                "wheel=-5", "move=10,10", "click=3,4", "drag=5,5,30,9", "drag=20,5,1,1", "wait",
+            ]),
+            0..14,
+        ),
+        sizes in prop::collection::vec((1..90_usize, 1..60_usize), 1..5),
+        scale in 1..4_usize,
+        name in prop::sample::select(vec!["overview", "valley", "plane"]),
+    ) {
+        let keys = words.join(" ");
+        let (canvas, _) = run_in(scene(name, &[]), scale, &sizes, &keys).unwrap();
+        // And the same again, bit for bit.
+        let (again, _) = run_in(scene(name, &[]), scale, &sizes, &keys).unwrap();
+        prop_assert!(canvas == again, "{}", keys);
+    }
+}

@@ -1,0 +1,135 @@
+//! The program in a real window, on a virtual display; skipped where there is no Xvfb.
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+
+use terraline::sink::png;
+
+/// A virtual display that lives as long as this.
+struct Display {
+    server: Child,
+    name: String,
+}
+
+impl Display {
+    /// `None`, with a printed reason, where no window can be opened.
+    fn new() -> Option<Self> {
+        let server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn();
+        let Ok(mut server) = server else {
+            eprintln!("skipped: there is no Xvfb here");
+            return None;
+        };
+        let mut number = String::new();
+        let out = server.stdout.take().expect("a pipe");
+        let _ = BufReader::new(out).read_line(&mut number);
+        let display = Self { server, name: format!(":{}", number.trim()) };
+        if number.trim().is_empty() {
+            eprintln!("skipped: Xvfb does not start here");
+            return None;
+        }
+        Some(display)
+    }
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+fn terraline(folder: &Path, display: Option<&str>, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_terraline"));
+    command.current_dir(folder).args(arguments).env_remove("DISPLAY");
+    if let Some(display) = display {
+        command.env("DISPLAY", display);
+    }
+    let output = command.output().expect("the program starts");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
+    output
+}
+
+#[track_caller]
+fn succeeds(output: &Output) {
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{stderr}");
+}
+
+#[test]
+fn a_window_shows_what_render_draws() {
+    let Some(display) = Display::new() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let size = ["--size", "320x240"];
+    let script = ["--frames", "3", "--keys", "tab", "--screenshot", "window.png"];
+    let view = [&["view", "flight"][..], &size, &script].concat();
+    let seen = terraline(folder.path(), Some(&display.name), &view);
+    if String::from_utf8_lossy(&seen.stderr).contains("failed to load") {
+        eprintln!("skipped: {}", String::from_utf8_lossy(&seen.stderr));
+        return;
+    }
+    succeeds(&seen);
+    let render = [&["render", "flight", "--sample", "0", "-o", "frame.png"][..], &size].concat();
+    succeeds(&terraline(folder.path(), None, &render));
+    let [window, frame] =
+        ["window.png", "frame.png"].map(|name| png::read(&path(name)).expect("a picture"));
+    assert_eq!(window, frame);
+
+    // A scene that is copied out renders as it was seen; a screenshot takes a free name.
+    std::fs::write(path("terraline-001.png"), "mine").expect("a file");
+    let keys = "tab w w left j 2 1 c S";
+    let script = ["--frames", "10", "--keys", keys, "--screenshot", "window.png"];
+    let view = [&["view", "flight"][..], &size, &script].concat();
+    let seen = terraline(folder.path(), Some(&display.name), &view);
+    succeeds(&seen);
+    let printed = String::from_utf8(seen.stdout).expect("text");
+    let (scene, name) = printed.trim_end().rsplit_once('\n').expect("a scene and a name");
+    assert_eq!(name, "terraline-002.png");
+    std::fs::write(path("copied.toml"), scene).expect("a file");
+    let render = ["render", "copied.toml", "--sample", "0", "-o", "frame.png"];
+    succeeds(&terraline(folder.path(), None, &render));
+    let [window, shot, frame] =
+        ["window.png", name, "frame.png"].map(|name| png::read(&path(name)).expect("a picture"));
+    assert!(window == frame && shot == frame);
+}
+
+#[test]
+fn without_a_display_one_message_names_render() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for display in [None, Some(""), Some(":4711"), Some("nowhere")] {
+        let arguments = ["view", "plane", "--frames", "1", "--screenshot", "no.png"];
+        let output = terraline(folder.path(), display, &arguments);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{display:?}: {stderr}");
+        assert!(stderr.contains("terraline render"), "{display:?}: {stderr}");
+        assert_eq!(stderr.lines().count(), 1, "{display:?}: {stderr}");
+        assert!(output.stdout.is_empty() && !folder.path().join("no.png").exists());
+    }
+}
+
+#[test]
+fn bad_options_are_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (arguments, names) in [
+        (&["--frames", "1", "--keys", "w www"][..], "`www`"),
+        (&["--frames", "1", "--keys", "w w"], "--frames 2"),
+        (&["--keys", "w"], "--frames"),
+        (&["--screenshot", "a.png"], "--frames"),
+        (&["--scale", "0"], "--scale"),
+        (&["--size", "16000x4000"], "--size"),
+        (&["--frames", "1", "--screenshot", "no/a.png"], "no/a.png"),
+        (&["--set", "camera.position=[232, -3, 168]"], "camera.position"),
+    ] {
+        let arguments = [&["view", "valley"][..], arguments].concat();
+        let output = terraline(folder.path(), None, &arguments);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
+        assert!(stderr.contains(names), "{arguments:?}: {stderr}");
+    }
+}

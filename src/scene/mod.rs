@@ -39,6 +39,7 @@ pub use crate::word::{Overflow, Rounding};
 pub use builtin::load;
 pub use error::SceneError;
 pub use height_map::{Encoding, HeightFile, HeightMap};
+pub(crate) use tree::shorten;
 
 /// A complete scene: camera, screens, one surface, and the machine that draws it.
 #[derive(Clone, Debug)]
@@ -184,6 +185,8 @@ pub enum Surface {
 pub struct Terrain {
     /// As written in the scene: a path or `builtin:NAME`.
     pub source: String,
+    /// How the map's file packs its heights.
+    pub encoding: Encoding,
     /// The samples, with `nodata` carried out: nodes that are NaN are holes.
     pub map: Arc<HeightMap>,
     /// Cell size (Lx, Lz) in scene units, positive.

@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use glam::DVec3;
 
 use super::{
-    Angles, Attitude, Deformation, Extent, FormatRequest, Halvings, KernelShape, NoData, Outside,
-    Overflow, Rounding, Scene, Screen, StepperMode, Surface, WordSize,
+    Angles, Attitude, Deformation, Encoding, Extent, FormatRequest, Halvings, KernelShape, NoData,
+    Outside, Overflow, Rounding, Scene, Screen, StepperMode, Surface, WordSize,
 };
 
 /// The scene file of a scene. `map` is written as the path of its height map, if it has one that
@@ -73,7 +73,7 @@ pub fn toml(scene: &Scene, map: &str) -> String {
         for (index, (name, request)) in scene.formats.iter().enumerate() {
             // Of several requests for one register the last one counts, as in the program.
             if !scene.formats[index + 1..].iter().any(|(later, _)| later == name) {
-                out.key(&text(name), format(request));
+                out.key(&toml_edit::Key::new(name).to_string(), format(request));
             }
         }
     }
@@ -121,6 +121,9 @@ fn surface(out: &mut Tables, surface: &Surface, map: &str) {
             let built_in = terrain.source.starts_with("builtin:");
             out.key("kind", text("terrain"));
             out.key("map", text(if built_in { &terrain.source } else { map }));
+            if terrain.encoding != Encoding::Stored {
+                out.key("encoding", text(terrain.encoding.name()));
+            }
             out.key("cell", list([terrain.cell.x, terrain.cell.y].map(number)));
             let (offset, scale) = (number(terrain.offset), number(terrain.scale));
             out.key("height", format!("{{ offset = {offset}, scale = {scale} }}"));

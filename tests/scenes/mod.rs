@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use terraline::plan::Plan;
 use terraline::scene::{
-    Angles, Attitude, Camera, Colors, Deformation, Extent, Halvings, HeightMap, Kernel,
+    Angles, Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, HeightMap, Kernel,
     KernelShape, Light, Machine, NoData, Outside, Plane, Scene, Screen, Stepper, StepperMode,
     Surface, Terrain, WordSize,
 };
@@ -38,6 +38,7 @@ pub fn kernels() -> impl Iterator<Item = Kernel> {
 pub fn terrain(columns: usize, rows: usize, samples: Vec<f32>) -> Terrain {
     Terrain {
         source: "by hand".into(),
+        encoding: Encoding::Stored,
         map: Arc::new(HeightMap::new(columns, rows, samples)),
         cell: DVec2::ONE,
         offset: 0.0,

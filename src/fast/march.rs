@@ -13,14 +13,14 @@ use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::maxima::{Maxima, NOTHING};
 use super::words::{LANES, Packed, Words};
-use super::{refine, solve};
+use super::{refine, shade, solve};
 use crate::frame::Hit;
 use crate::setup::TerrainUnits;
 use crate::unit::Line;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::line::{Entry, Work};
 use crate::unit::stepper::{Place, Stepper};
-use crate::word::{Lane as _, Site, Word as _, World};
+use crate::word::{Interpolating, Lane as _, Shading, Site, Word as _, World};
 
 /// What a walk needs to know of the map.
 pub struct Land<'a, W: World, S> {
@@ -80,13 +80,25 @@ pub struct Rays<W: Packed, S: Simd> {
     pub longest: [u64; 2],
 }
 
-/// Runs the stepper on neighbouring lines, by packets where set-up has made maxima.
+/// Runs stepper, interpolator and shader on neighbouring lines: by packets where set-up has made
+/// maxima, else as the processor does.
 #[inline(always)]
-pub fn walk<W: Packed, S: Simd>(simd: S, units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
+pub fn draw<W: Packed, S: Simd>(simd: S, units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
     let (stepper, surface) = (&units.stepper, &units.interpolator);
-    match units.maxima.as_deref() {
-        Some(maxima) => run(&Land { simd, stepper, surface, maxima }, lines),
-        None => lines.iter_mut().for_each(|line| stepper.run(line, surface)),
+    let Some(maxima) = units.maxima.as_deref() else { return draw_singly(units, lines) };
+    let land = Land { simd, stepper, surface, maxima };
+    run(&land, lines);
+    for line in lines {
+        shade::run(&land, &units.shader, line);
+    }
+}
+
+/// Runs stepper, interpolator and shader ray by ray.
+#[inline(always)]
+pub fn draw_singly<W: Interpolating + Shading>(units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
+    for line in lines {
+        units.stepper.run(line, &units.interpolator);
+        units.shade(line);
     }
 }
 
@@ -269,7 +281,8 @@ pub fn end_walks<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S
     let stepper = land.stepper;
     let used_up = rays.walks & rays.index.simd_gt(stepper.last);
     if used_up.any_true() {
-        let [x, y, z] = std::array::from_fn(|axis| (rays.place[axis] - rays.step[axis]).store());
+        let ([x, y, z], [dx, dy, dz]) = (rays.place, rays.step);
+        let (x, y, z) = ((x - dx).store(), (y - dy).store(), (z - dz).store());
         let [dx, dy, dz] = rays.step.map(Words::store);
         for lane in (0..LANES).filter(|&lane| used_up.test(lane)) {
             let last = place::<W>(x[lane], y[lane], z[lane]);

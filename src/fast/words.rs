@@ -32,7 +32,7 @@ pub trait Packed:
     Interpolating
     + Shading
     + World<
-        View: Lane,
+        View: Lane<Int = Self::Int>,
         Ground: Lane<Int = Self::Int>,
         Height: Lane<Int = Self::Int>,
         Weight: Lane<Int = Self::Int>,
@@ -91,7 +91,7 @@ pub trait Words<S: Simd>: Copy + Add<Output = Self> + Sub<Output = Self> {
     /// Bits of the magnitude shifted right, rounded down, within 31 bits.
     fn coarse_magnitude(self, places: u32) -> u32x16<S>;
     /// How many more steps stay within the block of 2^level cells: too few if `inverse` is that of
-    /// a longer step, never too many (see [`Lane::inverse`]).
+    /// a longer step, never too many; `inverse` is 2^(POINT + 20) over the step, rounded down.
     fn steps_within(self, step: Self, level: u32x16<S>, inverse: u32) -> u32x16<S>;
     /// `self · weight`, weights with the words' point, rounded to nearest, ties upward.
     fn weighted(self, weight: i32x16<S>) -> Self;
@@ -100,6 +100,8 @@ pub trait Words<S: Simd>: Copy + Add<Output = Self> + Sub<Output = Self> {
     /// `self / 2^places` per lane, at least one place, rounded to nearest, ties upward; the outcome
     /// has 32 bits.
     fn reduced(self, places: u32x16<S>) -> i32x16<S>;
+    /// `self / 2^places` per lane, places of either sign, rounded to nearest, ties upward.
+    fn scaled_down(self, places: i32x16<S>) -> Self;
     /// The words where they have 32 bits.
     fn low(self) -> i32x16<S>;
     /// Words of 32 bits.
@@ -201,6 +203,11 @@ impl<S: Simd> Words<S> for i32x16<S> {
         (halves >> 1) + (halves & 1)
     }
     #[inline(always)]
+    fn scaled_down(self, places: i32x16<S>) -> Self {
+        let down = self.reduced(places.max(1).bitcast());
+        places.simd_gt(0).select(down, self << (-places).max(0))
+    }
+    #[inline(always)]
     fn low(self) -> i32x16<S> {
         self
     }
@@ -242,6 +249,13 @@ fn steps_within<S: Simd>(
     let block = u64x8::simd_from(word.token(), u64::MAX) >> (64 - u64::from(POINT) - level);
     let left = (word ^ !(step >> 63)).bitcast::<u64x8<S>>() & block;
     (left * u64::from(inverse)) >> (POINT + 20)
+}
+
+/// Half of [`Words::scaled_down`].
+#[inline(always)]
+fn scaled_down<S: Simd>(words: i64x8<S>, places: i64x8<S>) -> i64x8<S> {
+    let halves = words >> (places.max(1) - 1);
+    places.simd_gt(0).select((halves >> 1) + (halves & 1), words << (-places).max(0))
 }
 
 impl<S: Simd> Pair<S> {
@@ -355,6 +369,11 @@ impl<S: Simd> Words<S> for Pair<S> {
         let low = self.0 >> low.bitcast::<i64x8<S>>();
         let high = self.1 >> high.bitcast::<i64x8<S>>();
         ((low >> 1) + (low & 1)).narrow((high >> 1) + (high & 1))
+    }
+    #[inline(always)]
+    fn scaled_down(self, places: i32x16<S>) -> Self {
+        let (low, high) = places.widen();
+        Self(scaled_down(self.0, low), scaled_down(self.1, high))
     }
     #[inline(always)]
     fn low(self) -> i32x16<S> {

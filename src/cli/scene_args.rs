@@ -9,7 +9,7 @@ use crate::engine::FixedWorld;
 use crate::plan::Plan;
 use crate::scene::overlook::{self, Overlook};
 use crate::scene::screen::{MAX_PIXELS, MAX_SIDE};
-use crate::scene::{self, FormatRequest, Overflow, Rounding, Scene, Surface};
+use crate::scene::{self, FormatRequest, Overflow, Rounding, Scene, Surface, Terrain};
 
 /// Scene and overrides.
 #[derive(Debug, Args)]
@@ -103,11 +103,16 @@ impl SceneArgs {
         let Some(file) = self.scene.as_deref().map(PathBuf::from) else { return Vec::new() };
         let mut inputs = Vec::new();
         if let Surface::Terrain(terrain) = &planned.scene.surface {
-            let folder = file.parent().unwrap_or(Path::new("."));
-            inputs.push(folder.join(&terrain.source));
+            inputs.push(self.map_file(terrain));
         }
         inputs.push(file);
         inputs
+    }
+
+    /// Path of a terrain's map, which stands in the scene relative to the scene's folder.
+    pub fn map_file(&self, terrain: &Terrain) -> PathBuf {
+        let folder = self.scene.as_deref().and_then(|file| Path::new(file).parent());
+        folder.unwrap_or(Path::new("")).join(&terrain.source)
     }
 
     /// The arguments again, quoted for a shell.
@@ -127,24 +132,6 @@ impl SceneArgs {
         }
         words.join(" ")
     }
-}
-
-/// Refuses to write to a file that is read.
-pub fn keep_inputs<'a>(
-    outputs: impl IntoIterator<Item = &'a Path>,
-    inputs: &[PathBuf],
-) -> Result<(), Stop> {
-    for output in outputs {
-        // A file that does not exist is no input.
-        let Ok(real) = std::fs::canonicalize(output) else { continue };
-        if inputs.iter().any(|input| std::fs::canonicalize(input).is_ok_and(|i| i == real)) {
-            return Err(Stop::BadInput(format!(
-                "{}: this file is read, it would be overwritten; give another name for the output",
-                output.display()
-            )));
-        }
-    }
-    Ok(())
 }
 
 /// A word for a POSIX shell.

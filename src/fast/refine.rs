@@ -36,9 +36,8 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
             known = Known::new(land, i, j);
         }
         let after = known.holds(i, j);
-        let nodes = std::array::from_fn(|at| {
-            W::Words::select(after, known.nodes[at], before.nodes[at])
-        });
+        let nodes =
+            std::array::from_fn(|at| W::Words::select(after, known.nodes[at], before.nodes[at]));
         let under = y.less(heights(land, &nodes, x, z)) & land.inside(i, j);
         let halves = times.simd_ge(halving);
         for axis in 0..3 {
@@ -66,10 +65,7 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
 
 /// Halvings of each ray, and the most of all: `Stepper::halvings_at`.
 #[inline(always)]
-fn halvings<W: Packed, S: Simd>(
-    land: &Land<'_, W, S>,
-    rays: &Rays<W, S>,
-) -> (u32x16<S>, u32) {
+fn halvings<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &Rays<W, S>) -> (u32x16<S>, u32) {
     match land.stepper.halvings {
         HalvingRule::Fixed(times) => (u32x16::simd_from(land.simd, times), times),
         HalvingRule::Footprint { bias, cap } => {

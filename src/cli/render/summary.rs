@@ -237,7 +237,7 @@ impl Render {
         for chosen in planned.overlook.iter().flat_map(|overlook| &overlook.chosen) {
             out.push(format!("  chosen    {chosen}"));
         }
-        for path in self.outputs() {
+        for (_, path) in self.outputs() {
             out.push(format!("  wrote     {}", path.display()));
         }
         out.join("\n")

@@ -192,20 +192,24 @@ impl Render {
                  --engine processor"
                     .into(),
             )),
-            Engine::Fast | Engine::Processor => Ok(world.run(draw(self.engine))?),
+            Engine::Fast | Engine::Processor => {
+                world.run(draw(self.engine)).map_err(|error| planned.refused(&error))
+            }
             Engine::Real | Engine::Oracle => {
                 let mut times = Vec::new();
                 let mut frame = None;
+                let refused = |error| planned.refused(&error);
                 let start = Instant::now();
                 let memory = match self.engine {
-                    Engine::Real => Memory::new(&Real, scene, plan)?,
+                    Engine::Real => Memory::new(&Real, scene, plan).map_err(refused)?,
                     _ => None,
                 };
                 let setup = start.elapsed();
                 for _ in 0..self.repeat {
                     let start = Instant::now();
                     frame = Some(match self.engine {
-                        Engine::Real => engine::draw_real(scene, plan, memory.as_ref(), buffers)?,
+                        Engine::Real => engine::draw_real(scene, plan, memory.as_ref(), buffers)
+                            .map_err(refused)?,
                         _ => engine::draw_oracle(scene, plan),
                     });
                     times.push(start.elapsed());

@@ -10,6 +10,7 @@ use crate::plan::Plan;
 use crate::scene::overlook::{self, Overlook};
 use crate::scene::screen::{MAX_PIXELS, MAX_SIDE};
 use crate::scene::{self, FormatRequest, Overflow, Rounding, Scene, Surface, Terrain};
+use crate::setup::SetupError;
 
 /// Scene and overrides.
 #[derive(Debug, Args)]
@@ -49,10 +50,19 @@ pub struct Planned {
     pub plan: Plan,
     /// Its fixed-point world.
     pub world: FixedWorld,
+    /// How the command line names the scene.
+    pub named: String,
     /// How to name the scene and its overrides on a command line.
     pub invocation: String,
     /// The scene that was chosen for a height file.
     pub overlook: Option<Overlook>,
+}
+
+impl Planned {
+    /// The message for an error of set-up, with the name of the scene.
+    pub fn refused(&self, error: &SetupError) -> Stop {
+        Stop::BadInput(format!("{}: {error}", self.named))
+    }
 }
 
 impl SceneArgs {
@@ -84,7 +94,7 @@ impl SceneArgs {
             .map_err(|error| located(error.to_string()))?;
         let world = FixedWorld::of(&scene, &plan).map_err(|error| located(error.to_string()))?;
         let invocation = self.invocation();
-        Ok(Planned { scene, plan, world, invocation, overlook })
+        Ok(Planned { scene, plan, world, named: of.to_owned(), invocation, overlook })
     }
 
     /// Whether registers have formats of their own, which no scene file of ours holds.

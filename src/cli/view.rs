@@ -33,7 +33,7 @@ pub struct View {
     screenshot: Option<PathBuf>,
 
     /// Input of the frames, a word for each, as in "w w 3 / h"; docs/window.md lists the words.
-    #[arg(long, value_name = "WORDS", requires = "frames")]
+    #[arg(long, value_name = "WORDS", requires = "frames", allow_hyphen_values = true)]
     keys: Option<String>,
 }
 
@@ -90,8 +90,7 @@ mod open {
             let title = format!("{} - terraline", scene.name);
             let mut session = Session::new(scene, planned.plan.full, map, engine, layout);
             let order = session.order().unwrap_or_else(|| unreachable!("the first one is new"));
-            let drawing = Drawing::start(order)
-                .map_err(|error| Stop::BadInput(format!("{}: {error}", planned.scene.name)))?;
+            let drawing = Drawing::start(order).map_err(|error| planned.refused(&error))?;
             let mut window =
                 Window::open(&title, layout.width, layout.height).map_err(no_display)?;
             self.scene_out.write(scene_text.as_deref())?;

@@ -86,7 +86,13 @@ fn check(map: &Map, edge: Edge, r: i32) -> Result<(), TestCaseError> {
     for j in 0..map.rows {
         for i in 0..map.columns {
             let highest = map.highest((i - r, i + 1 + r), (j - r, j + 1 + r), edge);
-            prop_assert_eq!(Some(highest_of_cells[(j * map.columns + i) as usize]), highest, "({}, {})", i, j);
+            prop_assert_eq!(
+                Some(highest_of_cells[(j * map.columns + i) as usize]),
+                highest,
+                "({}, {})",
+                i,
+                j
+            );
         }
     }
     for level in 0..=pyramid.top() {

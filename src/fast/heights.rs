@@ -14,11 +14,7 @@ pub type Nodes<W, S> = [<W as Packed>::Words<S>; 4];
 
 /// Loads the nodes of cells; rays that are not asked for may stand anywhere.
 #[inline(always)]
-pub fn nodes<W: Packed, S: Simd>(
-    land: &Land<'_, W, S>,
-    i: i32x16<S>,
-    j: i32x16<S>,
-) -> Nodes<W, S> {
+pub fn nodes<W: Packed, S: Simd>(land: &Land<'_, W, S>, i: i32x16<S>, j: i32x16<S>) -> Nodes<W, S> {
     let memory = &*land.surface.heights;
     let (columns, rows) = (memory.columns(), memory.rows());
     let (west, east) = (i.max(0).min(columns - 1), (i + 1).max(0).min(columns - 1));

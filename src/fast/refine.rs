@@ -71,10 +71,7 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
 
 /// Halvings of each ray, and the most of all: `Stepper::halvings_at`.
 #[inline(always)]
-fn halvings<W: Packed, S: Simd>(
-    land: &Land<'_, W, S>,
-    rays: &Rays<W, S>,
-) -> (u32x16<S>, u32) {
+fn halvings<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &Rays<W, S>) -> (u32x16<S>, u32) {
     match land.stepper.halvings {
         HalvingRule::Fixed(times) => (u32x16::simd_from(land.simd, times), times),
         HalvingRule::Footprint { bias, cap } => {

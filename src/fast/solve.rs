@@ -132,12 +132,7 @@ impl<S: Simd> Slack<S> {
 
     /// Whether no sample hits between two samples so many steps apart, at and above the surface.
     #[inline(always)]
-    fn clears(
-        &self,
-        steps: u32x16<S>,
-        gap_low: i32x16<S>,
-        gap_high: i32x16<S>,
-    ) -> mask32x16<S> {
+    fn clears(&self, steps: u32x16<S>, gap_low: i32x16<S>, gap_high: i32x16<S>) -> mask32x16<S> {
         let (least, most) = (gap_low.min(gap_high), gap_low.max(gap_high));
         let steps = steps.bitcast::<i32x16<S>>();
         let bow = self.bend * steps * steps;

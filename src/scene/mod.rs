@@ -186,6 +186,8 @@ pub struct Terrain {
     pub source: String,
     /// The samples, with `nodata` carried out: nodes that are NaN are holes.
     pub map: Arc<HeightMap>,
+    /// How the samples of the file stand for heights.
+    pub encoding: Encoding,
     /// Cell size (Lx, Lz) in scene units, positive.
     pub cell: DVec2,
     /// `y = (sample - offset) * scale`.

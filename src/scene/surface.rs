@@ -127,12 +127,14 @@ fn terrain(table: &Fields<'_>, maps: Maps<'_>) -> Result<Surface, SceneError> {
     })?;
     let map = apply(map, nodata);
     let cell = cell.unwrap_or_else(|| default_cell(&source, &map));
-    let terrain = Terrain { source, map, cell, offset, scale, outside, nodata, base_depth };
+    let terrain =
+        Terrain { source, map, encoding, cell, offset, scale, outside, nodata, base_depth };
     check_extent(table, &terrain)?;
     Ok(Surface::Terrain(terrain))
 }
 
-const MAP: &str = "the path of a height file, \"builtin:jacksboro\", or \"builtin:jacksboro@N\" with N x N nodes";
+const MAP: &str =
+    "the path of a height file, \"builtin:jacksboro\", or \"builtin:jacksboro@N\" with N x N nodes";
 
 fn nodata(field: &Field<'_>) -> Result<NoData, SceneError> {
     const EXPECTED: &str = "\"hole\", \"nearest\" or a number";

@@ -121,6 +121,7 @@ fn surface(out: &mut Tables, surface: &Surface, map: &str) {
             let built_in = terrain.source.starts_with("builtin:");
             out.key("kind", text("terrain"));
             out.key("map", text(if built_in { &terrain.source } else { map }));
+            out.key("encoding", text(terrain.encoding.name()));
             out.key("cell", list([terrain.cell.x, terrain.cell.y].map(number)));
             let (offset, scale) = (number(terrain.offset), number(terrain.scale));
             out.key("height", format!("{{ offset = {offset}, scale = {scale} }}"));

@@ -65,7 +65,9 @@ impl<W: Open> Memory<W> {
         let pyramid = plan.fitted.pyramid.then(|| Arc::new(Pyramid::new(&heights, radius)));
         let maxima = world
             .fixed(Register::Node)
-            .filter(|format| plan.fitted.pyramid && packets_walk(&heights, form, walk, format.point))
+            .filter(|format| {
+                plan.fitted.pyramid && packets_walk(&heights, form, walk, format.point)
+            })
             .map(|format| Arc::new(maxima(&heights, walk, &scene.kernel, form, format.point)));
         let rom = match form {
             Form::Hat => None,
@@ -171,7 +173,8 @@ fn bend(kernel: &Kernel, form: Form) -> Bend {
     };
     let steepest = 1.0 + share * (kernel::steepest(kernel.shape) - 1.0);
     // Half an entry of the table at its steepest, and the rounding of both.
-    let entry = share * kernel::steepest(kernel.shape) / (2.0 * f64::from(kernel.table)) + ROUNDINGS;
+    let entry =
+        share * kernel::steepest(kernel.shape) / (2.0 * f64::from(kernel.table)) + ROUNDINGS;
     let up = |value: f64, bits: i32| libm::ceil(value * libm::exp2(f64::from(bits))) as u64 + 1;
     Bend {
         slope_squared: up(steepest * steepest, 8),

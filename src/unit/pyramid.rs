@@ -157,7 +157,10 @@ fn higher<T: Copy + PartialOrd>(a: T, b: T) -> T {
 }
 
 /// Per cell, the highest of nodes i−r ..= i+1+r and j−r ..= j+1+r.
-pub fn cell_maxima<T: Copy + PartialOrd + Send + Sync>(heights: &HeightMemory<T>, r: i32) -> Vec<T> {
+pub fn cell_maxima<T: Copy + PartialOrd + Send + Sync>(
+    heights: &HeightMemory<T>,
+    r: i32,
+) -> Vec<T> {
     let nodes = heights.nodes();
     let width = heights.columns() as usize;
     let mut out = vec![nodes[0]; nodes.len()];

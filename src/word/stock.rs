@@ -15,8 +15,8 @@ use fixed::types::extra::{U20, U24, U30, U38};
 use fixed::{FixedI32, FixedI64};
 
 use super::{
-    Cell, Divide, Enter, Fixed, Lane, Load, Multiply, Ratio, Readout, Register, Rescale, Site, Word,
-    World, array,
+    Cell, Divide, Enter, Fixed, Lane, Load, Multiply, Ratio, Readout, Register, Rescale, Site,
+    Word, World, array,
 };
 
 /// Integer and fraction bits of a stock word, for conversions inside this file.

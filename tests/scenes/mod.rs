@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use terraline::plan::Plan;
 use terraline::scene::{
-    Angles, Attitude, Camera, Colors, Deformation, Extent, Halvings, HeightMap, Kernel,
+    Angles, Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, HeightMap, Kernel,
     KernelShape, Light, Machine, NoData, Outside, Plane, Scene, Screen, Stepper, StepperMode,
     Surface, Terrain, WordSize,
 };
@@ -39,6 +39,7 @@ pub fn terrain(columns: usize, rows: usize, samples: Vec<f32>) -> Terrain {
     Terrain {
         source: "by hand".into(),
         map: Arc::new(HeightMap::new(columns, rows, samples)),
+        encoding: Encoding::Stored,
         cell: DVec2::ONE,
         offset: 0.0,
         scale: 1.0,

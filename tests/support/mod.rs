@@ -15,9 +15,9 @@ use terraline::frame::{Frame, Hit};
 use terraline::oracle::Oracle;
 use terraline::plan::{Plan, PlanError};
 use terraline::scene::{
-    Attitude, Camera, Colors, Deformation, Extent, Halvings, HeightMap, Kernel, KernelShape, Light,
-    Machine, NoData, Outside, Scene, Screen, Stepper, StepperMode, Surface, Terrain, WordSize,
-    load,
+    Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, HeightMap, Kernel,
+    KernelShape, Light, Machine, NoData, Outside, Scene, Screen, Stepper, StepperMode, Surface,
+    Terrain, WordSize, load,
 };
 use terraline::setup::{Memory, Setup, SetupError};
 use terraline::word::Complete;
@@ -67,6 +67,7 @@ pub fn over(map: HeightMap, columns: u32, lines: u32) -> Scene {
         surface: Surface::Terrain(Terrain {
             source: "hand".into(),
             map: Arc::new(map),
+            encoding: Encoding::Stored,
             cell: DVec2::ONE,
             offset: 0.0,
             scale: 1.0,

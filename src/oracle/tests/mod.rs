@@ -73,6 +73,7 @@ pub(super) fn terrain(map: HeightMap, outside: Outside) -> Terrain {
     Terrain {
         source: "test".into(),
         map: Arc::new(map),
+        encoding: crate::scene::Encoding::Stored,
         cell: DVec2::new(1.5, 0.75),
         offset: 50.0,
         scale: 0.03,

@@ -4,6 +4,8 @@
 mod bad_input;
 #[path = "command_line/height_files.rs"]
 mod height_files;
+#[path = "command_line/json_page.rs"]
+mod json_page;
 #[path = "command_line/scenes.rs"]
 mod scenes;
 

@@ -1,6 +1,8 @@
 //! Holes: cells that touch a node without data have no surface. Rays pass through them, and meet the
 //! sides of the ground around them, down to the base.
 
+#[path = "holes/files.rs"]
+mod files;
 mod support;
 
 use glam::DVec3;

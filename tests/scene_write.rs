@@ -17,8 +17,8 @@ fn assert_same(a: &Scene, b: &Scene) {
     let text = |scene: &Scene| {
         let surface = match &scene.surface {
             Surface::Terrain(t) => format!(
-                "{} {:?} {:?} {:?} {:?} {:?} {:?}",
-                t.source, t.cell, t.offset, t.scale, t.outside, t.nodata, t.base_depth
+                "{} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+                t.source, t.encoding, t.cell, t.offset, t.scale, t.outside, t.nodata, t.base_depth
             ),
             Surface::Plane(plane) => format!("{plane:?}"),
         };
@@ -64,6 +64,26 @@ fn formats_and_paths_are_written() {
     let text = write::toml(&scene, "/data/a \"b\" \\ c.png");
     let value: toml::Table = text.parse().unwrap();
     assert_eq!(value["surface"][0]["map"].as_str(), Some("/data/a \"b\" \\ c.png"));
+}
+
+#[test]
+fn encodings_are_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("tile.png");
+    image::RgbImage::from_fn(9, 7, |i, j| image::Rgb([128, (3 * i) as u8, (29 * j) as u8]))
+        .save(&path)
+        .expect("a picture");
+    for encoding in ["terrarium", "terrain-rgb"] {
+        let scene = read(&format!("[[surface]]\nmap = {path:?}\nencoding = \"{encoding}\""));
+        let text = write::toml(&scene, path.to_str().expect("text"));
+        assert!(text.contains(&format!("encoding = \"{encoding}\"")), "{text}");
+        let again = read(&text);
+        assert_same(&scene, &again);
+        let (Surface::Terrain(a), Surface::Terrain(b)) = (&scene.surface, &again.surface) else {
+            panic!("terrain");
+        };
+        assert_eq!(a.map.samples(), b.map.samples());
+    }
 }
 
 fn vector(range: f64) -> impl Strategy<Value = [f64; 3]> {

@@ -69,7 +69,7 @@ fn run_in(
     let frames = (script.len() + 1).max(sizes.len()) as u32;
     let mut glass = Sizes(sizes.iter().copied().collect());
     let layout = Layout::new(sizes[0].0, sizes[0].1, scale);
-    let mut session = Session::new(scene, false, "map.png".into(), Engine::Fast, layout);
+    let mut session = Session::new(scene, false, Some("map.png".into()), Engine::Fast, layout);
     let drawing = Drawing::start(session.order().expect("the first order"))
         .expect("a scene that can be drawn");
     let mut printed = Vec::new();
@@ -198,7 +198,7 @@ fn the_pixel_under_the_cursor_is_that_of_the_frame() {
     let drawn = frame(&scene, (96, 64), Engine::Fast);
     let buffers = drawn.buffers.as_ref().unwrap();
     let layout = Layout::new(96, 64, 1);
-    let mut session = Session::new(scene, false, String::new(), Engine::Fast, layout);
+    let mut session = Session::new(scene, false, Some(String::new()), Engine::Fast, layout);
     let drawing = Drawing::start(session.order().unwrap()).unwrap();
     for (column, line) in [(0, 0), (50, 40), (95, 63), (20, 20)] {
         drawing.look(Some((column, line)));
@@ -224,7 +224,7 @@ fn dragging_moves_the_scene_with_the_mouse() {
     let scene = scene("overview", &[]);
     let size = (300, 200);
     let layout = Layout::new(size.0, size.1, 1);
-    let mut session = Session::new(scene, false, String::new(), Engine::Fast, layout);
+    let mut session = Session::new(scene, false, Some(String::new()), Engine::Fast, layout);
     let place = |session: &Session| {
         let scene = session.scene();
         let plan = Plan::new(scene, None, false).unwrap();
@@ -249,7 +249,7 @@ fn the_craft_stays_above_the_ground() {
 
     let layout = Layout::new(64, 48, 1);
     let mut session =
-        Session::new(scene("valley", &[]), false, String::new(), Engine::Fast, layout);
+        Session::new(scene("valley", &[]), false, Some(String::new()), Engine::Fast, layout);
     let down = terraline::view::camera::Course { up: -1.0, ..Default::default() };
     let ahead = terraline::view::camera::Course { forward: 1.0, up: -1.0, right: 0.3 };
     for step in 0..400 {
@@ -276,7 +276,7 @@ fn a_new_order_and_the_end_do_not_wait_for_a_long_frame() {
     // A frame of errors of this size takes many seconds.
     let scene = scene("flight", &[]);
     let layout = Layout::new(1600, 1200, 1);
-    let mut session = Session::new(scene, false, String::new(), Engine::Fast, layout);
+    let mut session = Session::new(scene, false, Some(String::new()), Engine::Fast, layout);
     let order = session.order().unwrap();
     let drawing = Drawing::start(order.clone()).unwrap();
     let pane = |picture| vec![Pane { engine: Engine::Fast, picture }];

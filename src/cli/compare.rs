@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::scene_args::keep_inputs;
-use super::{Stop, report};
-use crate::sink::{self, png};
+use super::{Stop, outputs, report};
+use crate::sink::png;
 use crate::study::compare::{Comparison, compare_files, difference_picture, gain};
 
 /// Compare two frames (PNG) or two sets of buffers (npz).
@@ -40,8 +39,9 @@ impl Compare {
             ));
         }
         if let Some(path) = &self.output {
-            sink::check_writable(path)?;
-            keep_inputs([path.as_path()], &[self.a.clone(), self.b.clone()])?;
+            let output = [("--output", path.as_path())];
+            outputs::check(output)?;
+            outputs::keep_inputs(output, &[self.a.clone(), self.b.clone()])?;
         }
         let comparison = compare_files(&self.a, &self.b)?;
         if let Some(path) = &self.output {

@@ -31,7 +31,8 @@ impl Cycles {
         let all = Sample::all(plan);
         let operations = Sample::whole_lines(plan, self.sample, scene.seed);
         let measure = Measure { scene, plan, cycles: &all, operations: &operations };
-        let cost = report::while_waiting("counting", || planned.world.run(measure))?;
+        let cost = report::while_waiting("counting", || planned.world.run(measure))
+            .map_err(|error| planned.refused(&error))?;
         if self.json {
             return report::json("cycles", Some(&scene.name), &cost);
         }

@@ -26,7 +26,8 @@ impl Explain {
     pub fn run(&self) -> Result<(), Stop> {
         let planned = self.scene.load()?;
         let (column, line) = parse_pixel(&self.pixel, &planned.plan)?;
-        let explanation = explain(&planned.scene, &planned.plan, &planned.world, column, line)?;
+        let explanation = explain(&planned.scene, &planned.plan, &planned.world, column, line)
+            .map_err(|error| planned.refused(&error))?;
         if self.json {
             return report::json("explain", Some(&planned.scene.name), &explanation);
         }

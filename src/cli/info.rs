@@ -104,6 +104,12 @@ impl Info {
 }
 
 fn describe(path: &Path, encoding: Encoding) -> Result<Described, Stop> {
+    if !path.exists() {
+        return Err(Stop::BadInput(format!(
+            "{}: there is no such file; check the name of the height file",
+            path.display()
+        )));
+    }
     let HeightFile { map, georeference, storage, nodata, notes } = source::read(path, encoding)?;
     let (columns, rows) = (map.columns(), map.rows());
     let (lowest, highest) = map.range();

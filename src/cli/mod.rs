@@ -5,10 +5,12 @@ mod compare;
 mod cycles;
 mod explain;
 mod info;
+mod outputs;
 mod plan;
 mod render;
 mod report;
 mod scene_args;
+mod scene_out;
 mod scenes;
 mod view;
 

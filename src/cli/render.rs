@@ -2,14 +2,15 @@
 
 mod summary;
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use super::scene_args::{Planned, SceneArgs, keep_inputs};
+use super::outputs::{self, Named};
+use super::scene_args::{Planned, SceneArgs};
+use super::scene_out::SceneOut;
 use super::{Stop, report};
 use crate::clock::{Chain, Clock};
 use crate::engine::{self, Engine, InFixedWorld, Overflows};
@@ -18,7 +19,7 @@ use crate::frame::Frame;
 use crate::plan::units::{UnitPlan, units};
 use crate::setup::{Memory, Setup, SetupError};
 use crate::sink::picture::{self, Picture};
-use crate::sink::{self, npz, png};
+use crate::sink::{npz, png};
 use crate::study::error::{self, Sample, Sheet};
 use crate::word::Complete;
 use crate::word::real::Real;
@@ -47,9 +48,8 @@ pub struct Render {
     #[arg(long, value_name = "OUT.npz")]
     buffers: Option<PathBuf>,
 
-    /// Write the scene that was chosen for a height file, to start from.
-    #[arg(long, value_name = "OUT.toml")]
-    scene_out: Option<PathBuf>,
+    #[command(flatten)]
+    scene_out: SceneOut,
 
     /// Draw the frame this many times and report minimum, median and maximum.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
@@ -137,13 +137,10 @@ impl InFixedWorld for Draw<'_> {
 
 impl Render {
     pub fn run(&self) -> Result<(), Stop> {
-        for path in self.outputs() {
-            sink::check_writable(path)?;
-        }
-        self.check_names()?;
+        outputs::check(self.outputs())?;
         let planned = self.scene.load()?;
-        keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
-        let scene_text = self.scene_text(&planned)?;
+        outputs::keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
+        let scene_text = self.scene_out.text(&self.scene, &planned)?;
         let pixels = planned.plan.geometry.columns as usize * planned.plan.geometry.lines as usize;
         let buffers = self.buffers.is_some() || self.picture.needs_buffers();
         // The oracle's frame has buffers always, the picture of errors holds as much.
@@ -163,9 +160,7 @@ impl Render {
         if let Some(path) = &self.buffers {
             npz::write(path, &drawn.frame)?;
         }
-        if let (Some(path), Some(text)) = (&self.scene_out, &scene_text) {
-            sink::write_atomically(path, |file| file.write_all(text.as_bytes()))?;
-        }
+        self.scene_out.write(scene_text.as_deref())?;
         if self.json {
             return report::json("render", Some(&planned.scene.name), &summary);
         }
@@ -174,47 +169,12 @@ impl Render {
     }
 
     /// The files to write.
-    fn outputs(&self) -> impl Iterator<Item = &Path> {
-        [&self.output, &self.buffers, &self.scene_out].into_iter().flatten().map(PathBuf::as_path)
-    }
-
-    /// No file is written twice.
-    fn check_names(&self) -> Result<(), Stop> {
-        let named = [
-            ("--output", &self.output),
-            ("--buffers", &self.buffers),
-            ("--scene-out", &self.scene_out),
-        ];
-        let mut before: Vec<(&str, PathBuf)> = Vec::new();
-        for (option, path) in named {
-            let Some(path) = path else { continue };
-            let Ok(absolute) = std::path::absolute(path) else { continue };
-            if let Some((other, _)) = before.iter().find(|(_, other)| *other == absolute) {
-                return Err(Stop::BadInput(format!(
-                    "{option} {}: {other} writes the same file; give two names",
-                    path.display()
-                )));
-            }
-            before.push((option, absolute));
-        }
-        Ok(())
-    }
-
-    /// What `--scene-out` writes.
-    fn scene_text(&self, planned: &Planned) -> Result<Option<String>, Stop> {
-        let Some(path) = &self.scene_out else { return Ok(None) };
-        let refused =
-            |reason: &str| Err(Stop::BadInput(format!("--scene-out {}: {reason}", path.display())));
-        let Some(overlook) = &planned.overlook else {
-            return refused(
-                "a scene is written for height files only; copy the scene file, or print a \
-                 built-in scene with `terraline scenes NAME`",
-            );
-        };
-        if self.scene.has_formats() {
-            return refused("--format is not written; leave it out, or write [format] by hand");
-        }
-        Ok(Some(overlook.file(path)?))
+    fn outputs(&self) -> impl Iterator<Item = Named<'_>> {
+        let named = [("--output", &self.output), ("--buffers", &self.buffers)];
+        named
+            .into_iter()
+            .filter_map(|(option, path)| Some((option, path.as_deref()?)))
+            .chain(self.scene_out.named())
     }
 
     fn draw(&self, planned: &Planned, buffers: bool) -> Result<Drawn, Stop> {
@@ -232,20 +192,24 @@ impl Render {
                  --engine processor"
                     .into(),
             )),
-            Engine::Fast | Engine::Processor => Ok(world.run(draw(self.engine))?),
+            Engine::Fast | Engine::Processor => {
+                world.run(draw(self.engine)).map_err(|error| planned.refused(&error))
+            }
             Engine::Real | Engine::Oracle => {
                 let mut times = Vec::new();
                 let mut frame = None;
+                let refused = |error| planned.refused(&error);
                 let start = Instant::now();
                 let memory = match self.engine {
-                    Engine::Real => Memory::new(&Real, scene, plan)?,
+                    Engine::Real => Memory::new(&Real, scene, plan).map_err(refused)?,
                     _ => None,
                 };
                 let setup = start.elapsed();
                 for _ in 0..self.repeat {
                     let start = Instant::now();
                     frame = Some(match self.engine {
-                        Engine::Real => engine::draw_real(scene, plan, memory.as_ref(), buffers)?,
+                        Engine::Real => engine::draw_real(scene, plan, memory.as_ref(), buffers)
+                            .map_err(refused)?,
                         _ => engine::draw_oracle(scene, plan),
                     });
                     times.push(start.elapsed());

@@ -9,7 +9,8 @@ use crate::engine::FixedWorld;
 use crate::plan::Plan;
 use crate::scene::overlook::{self, Overlook};
 use crate::scene::screen::{MAX_PIXELS, MAX_SIDE};
-use crate::scene::{self, FormatRequest, Overflow, Rounding, Scene, Surface};
+use crate::scene::{self, FormatRequest, Overflow, Rounding, Scene, Surface, Terrain};
+use crate::setup::SetupError;
 
 /// Scene and overrides.
 #[derive(Debug, Args)]
@@ -49,10 +50,19 @@ pub struct Planned {
     pub plan: Plan,
     /// Its fixed-point world.
     pub world: FixedWorld,
+    /// How the command line names the scene.
+    pub named: String,
     /// How to name the scene and its overrides on a command line.
     pub invocation: String,
     /// The scene that was chosen for a height file.
     pub overlook: Option<Overlook>,
+}
+
+impl Planned {
+    /// The message for an error of set-up, with the name of the scene.
+    pub fn refused(&self, error: &SetupError) -> Stop {
+        Stop::BadInput(format!("{}: {error}", self.named))
+    }
 }
 
 impl SceneArgs {
@@ -84,7 +94,7 @@ impl SceneArgs {
             .map_err(|error| located(error.to_string()))?;
         let world = FixedWorld::of(&scene, &plan).map_err(|error| located(error.to_string()))?;
         let invocation = self.invocation();
-        Ok(Planned { scene, plan, world, invocation, overlook })
+        Ok(Planned { scene, plan, world, named: of.to_owned(), invocation, overlook })
     }
 
     /// Whether registers have formats of their own, which no scene file of ours holds.
@@ -103,11 +113,16 @@ impl SceneArgs {
         let Some(file) = self.scene.as_deref().map(PathBuf::from) else { return Vec::new() };
         let mut inputs = Vec::new();
         if let Surface::Terrain(terrain) = &planned.scene.surface {
-            let folder = file.parent().unwrap_or(Path::new("."));
-            inputs.push(folder.join(&terrain.source));
+            inputs.push(self.map_file(terrain));
         }
         inputs.push(file);
         inputs
+    }
+
+    /// Path of a terrain's map, which stands in the scene relative to the scene's folder.
+    pub fn map_file(&self, terrain: &Terrain) -> PathBuf {
+        let folder = self.scene.as_deref().and_then(|file| Path::new(file).parent());
+        folder.unwrap_or(Path::new("")).join(&terrain.source)
     }
 
     /// The arguments again, quoted for a shell.
@@ -127,24 +142,6 @@ impl SceneArgs {
         }
         words.join(" ")
     }
-}
-
-/// Refuses to write to a file that is read.
-pub fn keep_inputs<'a>(
-    outputs: impl IntoIterator<Item = &'a Path>,
-    inputs: &[PathBuf],
-) -> Result<(), Stop> {
-    for output in outputs {
-        // A file that does not exist is no input.
-        let Ok(real) = std::fs::canonicalize(output) else { continue };
-        if inputs.iter().any(|input| std::fs::canonicalize(input).is_ok_and(|i| i == real)) {
-            return Err(Stop::BadInput(format!(
-                "{}: this file is read, it would be overwritten; give another name for the output",
-                output.display()
-            )));
-        }
-    }
-    Ok(())
 }
 
 /// A word for a POSIX shell.

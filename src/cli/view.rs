@@ -6,14 +6,19 @@ use clap::Args;
 
 use super::Stop;
 use super::scene_args::SceneArgs;
+use super::scene_out::SceneOut;
 
 /// Open a window: the scan as it is produced, flown by mouse and keys.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: terraline view flight --size 960x600\n\
+                        Example: terraline view dem.tif\n\
                         Keys: H in the window, or docs/window.md")]
 pub struct View {
     #[command(flatten)]
     scene: SceneArgs,
+
+    #[command(flatten)]
+    scene_out: SceneOut,
 
     /// Window pixels per raster pixel, in both directions.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=32))]
@@ -28,14 +33,14 @@ pub struct View {
     screenshot: Option<PathBuf>,
 
     /// Input of the frames, a word for each, as in "w w 3 / h"; docs/window.md lists the words.
-    #[arg(long, value_name = "WORDS", requires = "frames")]
+    #[arg(long, value_name = "WORDS", requires = "frames", allow_hyphen_values = true)]
     keys: Option<String>,
 }
 
 #[cfg(not(feature = "window"))]
 impl View {
     pub fn run(&self) -> Result<(), Stop> {
-        let Self { scene: _, scale: _, frames: _, screenshot: _, keys: _ } = self;
+        let Self { scene: _, scene_out: _, scale: _, frames: _, screenshot: _, keys: _ } = self;
         Err(Stop::BadInput(
             "view: this program was built without its window (feature `window`); build it with \
              that feature, or use `terraline render -o frame.png` to draw into a file"
@@ -46,14 +51,13 @@ impl View {
 
 #[cfg(feature = "window")]
 mod open {
-    use std::path::Path;
-
+    use super::super::outputs::{self, Named};
     use super::super::report;
-    use super::super::scene_args::{Planned, keep_inputs};
+    use super::super::scene_args::Planned;
     use super::{Stop, View};
     use crate::engine::Engine;
     use crate::scene::{Scene, Surface};
-    use crate::sink::{check_writable, png};
+    use crate::sink::png;
     use crate::view::drawing::{Drawing, MAX_PIXELS};
     use crate::view::layout::Layout;
     use crate::view::run;
@@ -75,11 +79,10 @@ mod open {
                     script.len()
                 )));
             }
+            outputs::check(self.outputs())?;
             let planned = self.scene.load()?;
-            if let Some(path) = &self.screenshot {
-                keep_inputs([path.as_path()], &self.scene.inputs(&planned))?;
-                check_writable(path)?;
-            }
+            outputs::keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
+            let scene_text = self.scene_out.text(&self.scene, &planned)?;
             let layout = self.layout(&planned)?;
             let map = self.map(&planned.scene);
             let engine = if planned.world.wraps() { Engine::Fast } else { Engine::Processor };
@@ -87,10 +90,13 @@ mod open {
             let title = format!("{} - terraline", scene.name);
             let mut session = Session::new(scene, planned.plan.full, map, engine, layout);
             let order = session.order().unwrap_or_else(|| unreachable!("the first one is new"));
-            let drawing = Drawing::start(order)
-                .map_err(|error| Stop::BadInput(format!("{}: {error}", planned.scene.name)))?;
+            let drawing = Drawing::start(order).map_err(|error| planned.refused(&error))?;
             let mut window =
                 Window::open(&title, layout.width, layout.height).map_err(no_display)?;
+            self.scene_out.write(scene_text.as_deref())?;
+            for chosen in planned.overlook.iter().flat_map(|overlook| &overlook.chosen) {
+                eprintln!("chosen: {chosen}");
+            }
             let mut print = |text: &str| report::print(text);
             let mut view = run::View::new(&mut window, session, drawing, &mut print);
             if self.frames.is_none() {
@@ -102,6 +108,12 @@ mod open {
                 png::write(path, width, height, &canvas.bytes())?;
             }
             Ok(())
+        }
+
+        /// The files to write.
+        fn outputs(&self) -> impl Iterator<Item = Named<'_>> {
+            let screenshot = self.screenshot.as_deref().map(|path| ("--screenshot", path));
+            screenshot.into_iter().chain(self.scene_out.named())
         }
 
         /// The window that shows the scene's raster, or the one asked for.
@@ -128,13 +140,11 @@ mod open {
             Ok(Layout::new(side(columns), side(lines), scale as usize))
         }
 
-        /// The scene's height map as a path that holds from any folder.
-        fn map(&self, scene: &Scene) -> String {
-            let Surface::Terrain(terrain) = &scene.surface else { return String::new() };
-            let folder = self.scene.scene.as_deref().and_then(|file| Path::new(file).parent());
-            let beside = folder.unwrap_or(Path::new("")).join(&terrain.source);
-            let path = if beside.exists() { beside } else { terrain.source.clone().into() };
-            std::path::absolute(&path).unwrap_or(path).display().to_string()
+        /// The scene's height map as a path that holds from any folder; `None` if it is no text.
+        fn map(&self, scene: &Scene) -> Option<String> {
+            let Surface::Terrain(terrain) = &scene.surface else { return Some(String::new()) };
+            let file = self.scene.map_file(terrain);
+            std::fs::canonicalize(&file).unwrap_or(file).to_str().map(str::to_owned)
         }
     }
 

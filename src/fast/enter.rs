@@ -11,30 +11,29 @@ use crate::unit::Line;
 use crate::unit::projector::{LineStart, Linear, Projector};
 use crate::word::stock::{Narrow, Wide};
 use crate::word::sweep::Sweep;
-use crate::word::{Enter, Interpolating, World};
+use crate::word::{Enter, Interpolating, Shading, World};
 
-/// A world whose accumulators may be entered anywhere, and how its rays walk in the fast engine.
-pub trait Enterable: Interpolating + World<View: Enter> {
-    /// Runs the stepper on neighbouring lines, one by one where the world has no quicker way.
+/// A world whose accumulators may be entered anywhere, and how the fast engine draws terrain in it.
+pub trait Enterable: Interpolating + Shading + World<View: Enter> {
+    /// Runs stepper, interpolator and shader on neighbouring lines, ray by ray where the world has
+    /// no quicker way.
     #[inline(always)]
-    fn walk<S: Simd>(_: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
-        for line in lines {
-            units.stepper.run(line, &units.interpolator);
-        }
+    fn draw<S: Simd>(_: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
+        march::draw_singly(units, lines);
     }
 }
 
 impl Enterable for Sweep {}
 impl Enterable for Narrow {
     #[inline(always)]
-    fn walk<S: Simd>(simd: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
-        march::walk(simd, units, lines);
+    fn draw<S: Simd>(simd: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
+        march::draw(simd, units, lines);
     }
 }
 impl Enterable for Wide {
     #[inline(always)]
-    fn walk<S: Simd>(simd: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
-        march::walk(simd, units, lines);
+    fn draw<S: Simd>(simd: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
+        march::draw(simd, units, lines);
     }
 }
 

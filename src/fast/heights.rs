@@ -4,7 +4,7 @@ use fearless_simd::i32x16;
 use fearless_simd::prelude::*;
 
 use super::march::Land;
-use super::words::{Packed, Words};
+use super::words::{LANES, Packed, Words, lanes};
 use crate::unit::interpolator::Form;
 use crate::unit::stepper::SurfaceUnit;
 use crate::word::{Lane as _, Site};
@@ -19,12 +19,20 @@ pub fn nodes<W: Packed, S: Simd>(land: &Land<'_, W, S>, i: i32x16<S>, j: i32x16<
     let (columns, rows) = (memory.columns(), memory.rows());
     let (west, east) = (i.max(0).min(columns - 1), (i + 1).max(0).min(columns - 1));
     let (north, south) = (j.max(0).min(rows - 1) * columns, (j + 1).max(0).min(rows - 1) * columns);
-    let load = |address: i32x16<S>| {
-        let at = address.to_array();
-        let node = |lane: usize| memory.nodes()[at[lane] as usize].int();
-        W::Words::load(land.simd, std::array::from_fn(node))
-    };
-    [load(north + west), load(south + west), load(north + east), load(south + east)]
+    [
+        load(land, north + west),
+        load(land, south + west),
+        load(land, north + east),
+        load(land, south + east),
+    ]
+}
+
+/// The nodes at addresses.
+#[inline(always)]
+fn load<W: Packed, S: Simd>(land: &Land<'_, W, S>, addresses: i32x16<S>) -> W::Words<S> {
+    let nodes = land.surface.heights.nodes();
+    let at = addresses.to_array();
+    W::Words::load(land.simd, lanes!(lane => nodes[at[lane] as usize].int()))
 }
 
 /// Heights at places in the cells of the nodes.
@@ -39,41 +47,76 @@ pub fn heights<W: Packed, S: Simd>(
         // No stock world rounds at random, so operations need no addresses.
         let anywhere = Site::pixel(0, 0);
         let (x, z) = (x.store(), z.store());
-        let height = |lane: usize| {
+        let heights = lanes!(lane => {
             let (x, z) = (W::Ground::of_int(x[lane]), W::Ground::of_int(z[lane]));
             land.surface.height(x, z, anywhere).int()
-        };
-        return W::Words::load(land.simd, std::array::from_fn(height));
+        });
+        return W::Words::load(land.simd, heights);
     }
     let [h1, h2, h3, h4] = *nodes;
-    let (weight_x, weight_z) = (weights(land, x.fraction()), weights(land, z.fraction()));
+    let (x, z) = (x.fraction(), z.fraction());
+    let weight_x = weight(land, x, entries(land, x).as_ref());
+    let weight_z = weight(land, z, entries(land, z).as_ref());
     let west = h2 + (h1 - h2).weighted(weight_z);
     let east = h4 + (h3 - h4).weighted(weight_z);
     east + (west - east).weighted(weight_x)
 }
 
-/// Weights of the lower nodes of an axis at fractions within the cell: `Interpolator::weight`.
+/// Entries of the kernel ROM nearest to fractions within the cell; `None` where the hat is read.
 #[inline(always)]
-fn weights<W: Packed, S: Simd>(land: &Land<'_, W, S>, fraction: i32x16<S>) -> i32x16<S> {
-    let point = W::Words::<S>::POINT;
-    let hat = (1 << point) - fraction;
-    let Some(rom) = &land.surface.rom else { return hat };
-    let shift = match land.surface.form {
-        Form::Blend(shift) => shift,
-        Form::Hat => return hat,
-        Form::Plain | Form::Stretch => 0,
-    };
-    // The nearest entry.
-    let places = point - rom.log2();
-    let entries = ((fraction + (1 << (places - 1))) >> places).to_array();
-    let weight = |lane: usize| -> i64 { rom.weight(entries[lane] as usize).int().into() };
-    let kernel = i32x16::simd_from(land.simd, std::array::from_fn(|lane| weight(lane) as i32));
-    if shift == 0 {
-        return kernel;
+pub fn entries<W: Packed, S: Simd>(
+    land: &Land<'_, W, S>,
+    fraction: i32x16<S>,
+) -> Option<[i32; LANES]> {
+    let rom = land.surface.rom.as_ref().filter(|_| land.surface.form != Form::Hat)?;
+    let places = W::Words::<S>::POINT - rom.log2();
+    Some(((fraction + (1 << (places - 1))) >> places).to_array())
+}
+
+/// Weights of the lower nodes of an axis: `Interpolator::weight`.
+#[inline(always)]
+pub fn weight<W: Packed, S: Simd>(
+    land: &Land<'_, W, S>,
+    fraction: i32x16<S>,
+    entries: Option<&[i32; LANES]>,
+) -> i32x16<S> {
+    let hat = (1 << W::Words::<S>::POINT) - fraction;
+    let (Some(rom), Some(entries)) = (&land.surface.rom, entries) else { return hat };
+    let kernel = lanes!(lane => short::<W>(rom.weight(entries[lane] as usize).int()));
+    let kernel = i32x16::simd_from(land.simd, kernel);
+    match land.surface.form {
+        Form::Blend(shift) => hat + shifted_toward_zero(kernel - hat, shift),
+        Form::Plain | Form::Stretch | Form::Hat => kernel,
     }
-    // The difference is shifted toward zero; a shift by all bits leaves the hat.
-    let difference = kernel - hat;
+}
+
+/// Slopes of those weights: `Interpolator::arm`.
+#[inline(always)]
+pub fn slope<W: Packed, S: Simd>(
+    land: &Land<'_, W, S>,
+    entries: Option<&[i32; LANES]>,
+) -> i32x16<S> {
+    let one = i32x16::simd_from(land.simd, 1 << W::Words::<S>::POINT);
+    let (Some(rom), Some(entries)) = (&land.surface.rom, entries) else { return -one };
+    let kernel = lanes!(lane => short::<W>(rom.slope(entries[lane] as usize).int()));
+    let kernel = i32x16::simd_from(land.simd, kernel);
+    match land.surface.form {
+        // The hat falls with slope one.
+        Form::Blend(shift) => shifted_toward_zero(kernel + one, shift) - one,
+        Form::Plain | Form::Stretch | Form::Hat => kernel,
+    }
+}
+
+/// A word that is known to have 32 bits.
+#[inline(always)]
+pub fn short<W: Packed>(word: W::Int) -> i32 {
+    let word: i64 = word.into();
+    word as i32
+}
+
+/// As `Word::shift_toward_zero`.
+#[inline(always)]
+fn shifted_toward_zero<S: Simd>(words: i32x16<S>, shift: u32) -> i32x16<S> {
     let places = shift.min(31);
-    let up = (difference >> 31) & (((1_u32 << places) - 1) as i32);
-    hat + ((difference + up) >> places)
+    (words + ((words >> 31) & ((1_u32 << places) - 1) as i32)) >> places
 }

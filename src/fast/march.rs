@@ -13,14 +13,14 @@ use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::maxima::{Maxima, NOTHING};
 use super::words::{LANES, Packed, Words};
-use super::{refine, solve};
+use super::{refine, shade, solve};
 use crate::frame::Hit;
 use crate::setup::TerrainUnits;
 use crate::unit::Line;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::line::{Entry, Work};
 use crate::unit::stepper::{Place, Stepper};
-use crate::word::{Lane as _, Site, Word as _, World};
+use crate::word::{Interpolating, Lane, Shading, World};
 
 /// What a walk needs to know of the map.
 pub struct Land<'a, W: World, S> {
@@ -80,13 +80,25 @@ pub struct Rays<W: Packed, S: Simd> {
     pub longest: [u64; 2],
 }
 
-/// Runs the stepper on neighbouring lines, by packets where set-up has made maxima.
+/// Runs stepper, interpolator and shader on neighbouring lines: by packets where set-up has made
+/// maxima, else as the processor does.
 #[inline(always)]
-pub fn walk<W: Packed, S: Simd>(simd: S, units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
+pub fn draw<W: Packed, S: Simd>(simd: S, units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
     let (stepper, surface) = (&units.stepper, &units.interpolator);
-    match units.maxima.as_deref() {
-        Some(maxima) => run(&Land { simd, stepper, surface, maxima }, lines),
-        None => lines.iter_mut().for_each(|line| stepper.run(line, surface)),
+    let Some(maxima) = units.maxima.as_deref() else { return draw_singly(units, lines) };
+    let land = Land { simd, stepper, surface, maxima };
+    run(&land, lines);
+    for line in lines {
+        shade::run(&land, &units.shader, line);
+    }
+}
+
+/// Runs stepper, interpolator and shader ray by ray.
+#[inline(always)]
+pub fn draw_singly<W: Interpolating + Shading>(units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
+    for line in lines {
+        units.stepper.run(line, &units.interpolator);
+        units.shade(line);
     }
 }
 
@@ -110,6 +122,9 @@ fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, lines: &mut [Line<W>]) {
         finish(&rays, lines, shape, from);
     }
 }
+
+/// Block size that rays try first.
+const START_LEVEL: u32 = 4;
 
 /// Outcomes by number.
 const OUTCOMES: [Hit; 4] = [Hit::Sky, Hit::Surface, Hit::Side, Hit::Far];
@@ -138,85 +153,96 @@ fn start<W: Packed, S: Simd>(
     from: usize,
 ) -> Rays<W, S> {
     let (simd, stepper) = (land.simd, land.stepper);
-    let eye = stepper.eye();
-    let mut place = [[W::Int::default(); LANES]; 3];
-    let mut step = [[W::Int::default(); LANES]; 3];
-    let mut within = [[0; LANES]; 4];
-    let (mut rises, mut falls, mut walks) = ([0; LANES], [0; LANES], [0; LANES]);
+    let mut view = [[W::Int::default(); LANES]; 3];
+    let mut ground = [[W::Int::default(); LANES]; 2];
+    let mut met = [0; LANES];
     let mut outcome = [Hit::Sky as i32; LANES];
-    let still = eye.minus(eye);
-    let mut longest = [still.x, still.z];
-    for lane in 0..LANES {
-        let (row, column) = shape.pixel(lane);
-        let i = from + column;
-        if row >= shape.lines || i >= lines[row].len() {
-            continue;
+    for (row, line) in lines.iter().enumerate() {
+        for column in 0..shape.width.min(line.len() - from) {
+            let (lane, i) = (row * shape.width + column, from + column);
+            view[0][lane] = line.view_x[i].int();
+            view[1][lane] = line.view_y[i].int();
+            view[2][lane] = line.view_z[i].int();
+            ground[0][lane] = line.ground_x[i].int();
+            ground[1][lane] = line.ground_z[i].int();
+            let entry = if stepper.from_eye { Entry::Met } else { line.entry[i] };
+            met[lane] = -i32::from(entry == Entry::Met);
+            outcome[lane] = if entry == Entry::Far { stepper.beyond } else { Hit::Sky } as i32;
         }
-        let line = &lines[row];
-        match if stepper.from_eye { Entry::Met } else { line.entry[i] } {
-            Entry::Sky => continue,
-            Entry::Far => {
-                outcome[lane] = stepper.beyond as i32;
-                continue;
-            }
-            Entry::Met => {}
-        }
-        let first = if stepper.from_eye {
-            eye
-        } else {
-            Place { x: line.ground_x[i], y: stepper.top, z: line.ground_z[i] }
-        };
-        let site = Site::pixel(line.number, line.column[i]);
-        let ahead = stepper.step(line.view_x[i], line.view_y[i], line.view_z[i], site);
-        let heading = stepper.heading(ahead);
-        if stepper.is_over(first, heading) {
-            continue;
-        }
-        if stepper.last == 0 {
-            outcome[lane] = Hit::Far as i32;
-            continue;
-        }
-        let first = first.plus(ahead);
-        for (words, place) in [(&mut place, first), (&mut step, ahead)] {
-            words[0][lane] = place.x.int();
-            words[1][lane] = place.y.int();
-            words[2][lane] = place.z.int();
-        }
-        let ends = stepper.extent;
-        let (columns, rows) = ends.unwrap_or((0, 0));
-        let bound = |ends_there: bool, cell: i32, open: i32| {
-            if ends.is_some() && ends_there { cell } else { open }
-        };
-        within[0][lane] = bound(heading.west, 0, i32::MIN);
-        within[1][lane] = bound(heading.east, columns - 2, i32::MAX);
-        within[2][lane] = bound(heading.north, 0, i32::MIN);
-        within[3][lane] = bound(heading.south, rows - 2, i32::MAX);
-        rises[lane] = -i32::from(heading.rises);
-        falls[lane] = -i32::from(heading.falls);
-        walks[lane] = -1;
-        let (x, z) = (ahead.x.magnitude(), ahead.z.magnitude());
-        longest[0] = if x > longest[0] { x } else { longest[0] };
-        longest[1] = if z > longest[1] { z } else { longest[1] };
     }
-    let mask = |flags: [i32; LANES]| mask32x16::simd_from(simd, flags);
-    let number = |number: u32| u32x16::simd_from(simd, number);
-    Rays {
-        place: place.map(|words| W::Words::load(simd, words)),
-        step: step.map(|words| W::Words::load(simd, words)),
-        index: number(1),
-        level: number(4).min(land.maxima.top()),
-        walks: mask(walks),
-        near: mask([0; LANES]),
-        more: number(0),
-        hits: mask([0; LANES]),
+    let mask = |flag: bool| mask32x16::simd_from(simd, flag);
+    let number = |number: i32| i32x16::simd_from(simd, number);
+    let splat = |word: W::Int| W::Words::splat(simd, word);
+    let met = mask32x16::simd_from(simd, met);
+
+    // The step, as `Stepper::step`: equation 20.
+    let [x, y, z] = view;
+    let (x, y, z) =
+        (W::Words::load(simd, x), W::Words::load(simd, y), W::Words::load(simd, z));
+    // The leading one is counted from the ground's point, so the points' difference cancels out.
+    let places = W::Words::leading_one([x, y, z]) + (1 + stepper.fineness as i32);
+    let (dx, dy, dz) = (x.scaled_down(places), y.scaled_down(places), z.scaled_down(places));
+    let place = if stepper.from_eye {
+        let eye = stepper.eye();
+        [splat(eye.x.int()), splat(eye.y.int()), splat(eye.z.int())]
+    } else {
+        let [x, z] = ground;
+        [W::Words::load(simd, x), splat(stepper.top.int()), W::Words::load(simd, z)]
+    };
+
+    let none = dx - dx;
+    let (west, east) = (!none.less(dx), !dx.less(none));
+    let (north, south) = (!none.less(dz), !dz.less(none));
+    let (columns, rows) = stepper.extent.unwrap_or((0, 0));
+    let ends = mask(stepper.extent.is_some());
+    let within = [
+        (ends & west).select(number(0), number(i32::MIN)),
+        (ends & east).select(number(columns - 2), number(i32::MAX)),
+        (ends & north).select(number(0), number(i32::MIN)),
+        (ends & south).select(number(rows - 2), number(i32::MAX)),
+    ];
+    let longest = [longest::<W, S>(dx, met), longest::<W, S>(dz, met)];
+    let mut rays = Rays {
+        place,
+        step: [dx, dy, dz],
+        index: u32x16::simd_from(simd, 0),
+        level: u32x16::simd_from(simd, START_LEVEL.min(land.maxima.top())),
+        walks: met,
+        near: mask(false),
+        more: u32x16::simd_from(simd, 0),
+        hits: mask(false),
         outcome: i32x16::simd_from(simd, outcome),
-        within: within.map(|cells| i32x16::simd_from(simd, cells)),
-        rises: mask(rises),
-        falls: mask(falls),
-        inverse: longest.map(|step| step.inverse()),
-        // From the reciprocal: 2^36 / (2^(FRACTION + 20) / |step|), 16 bits of the step.
-        longest: longest.map(|step| (1_u64 << 36) / u64::from(step.inverse()) + 1),
+        within,
+        rises: !dy.less(none),
+        falls: mask(stepper.sides) & !none.less(dy),
+        inverse: longest.map(inverse::<W>),
+        // 16 fraction bits.
+        longest: longest.map(|step| u64::from(step >> (W::Ground::FRACTION - 16)) + 1),
+    };
+    // A ray may be over before its first sample, or have none.
+    let fallen = rays.falls & place[1].less(splat(stepper.base.int()));
+    rays.walks &= !fallen;
+    end_walks(land, &mut rays);
+    if stepper.last == 0 {
+        rays.outcome = rays.walks.select(number(Hit::Far as i32), rays.outcome);
+        rays.walks = mask(false);
     }
+    rays.advance(u32x16::simd_from(simd, 1));
+    rays
+}
+
+/// The longest of some steps, in bits.
+#[inline(always)]
+fn longest<W: Packed, S: Simd>(steps: W::Words<S>, of: mask32x16<S>) -> u32 {
+    let lengths = steps.coarse_magnitude(0);
+    let lengths = of.select(lengths, lengths - lengths).to_array();
+    lengths.into_iter().fold(0, u32::max)
+}
+
+/// `floor(2^(FRACTION + 20) / step)`, at most 2^26.
+#[inline(always)]
+fn inverse<W: Packed>(step: u32) -> u32 {
+    ((1_u64 << (W::Ground::FRACTION + 20)) / u64::from(step.max(1))).min(1 << 26) as u32
 }
 
 impl<W: Packed, S: Simd> Rays<W, S> {
@@ -269,7 +295,8 @@ pub fn end_walks<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S
     let stepper = land.stepper;
     let used_up = rays.walks & rays.index.simd_gt(stepper.last);
     if used_up.any_true() {
-        let [x, y, z] = std::array::from_fn(|axis| (rays.place[axis] - rays.step[axis]).store());
+        let ([x, y, z], [dx, dy, dz]) = (rays.place, rays.step);
+        let (x, y, z) = ((x - dx).store(), (y - dy).store(), (z - dz).store());
         let [dx, dy, dz] = rays.step.map(Words::store);
         for lane in (0..LANES).filter(|&lane| used_up.test(lane)) {
             let last = place::<W>(x[lane], y[lane], z[lane]);

@@ -8,6 +8,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{i16x16, i32x16, mask32x16, u32x16};
 
+use super::words::lanes;
 use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::pyramid::{cell_maxima, halve_into};
 
@@ -133,8 +134,8 @@ impl Maxima {
     #[inline(always)]
     pub fn bounds<S: Simd>(&self, addresses: u32x16<S>) -> i32x16<S> {
         let at = addresses.to_array();
-        let bound = |lane: usize| self.bounds[at[lane] as usize];
-        let (low, high) = i16x16::simd_from(addresses.token(), std::array::from_fn(bound)).widen();
+        let bounds = lanes!(lane => self.bounds[at[lane] as usize]);
+        let (low, high) = i16x16::simd_from(addresses.token(), bounds).widen();
         low.combine(high)
     }
 }

@@ -11,6 +11,7 @@ pub mod heights;
 pub mod march;
 pub mod maxima;
 pub mod refine;
+pub mod shade;
 pub mod solve;
 pub mod words;
 
@@ -63,10 +64,7 @@ fn run_units<W: Complete + Enterable, S: Simd>(
         }
     }
     match &setup.back {
-        Back::Terrain(units) => {
-            W::walk(simd, units, lines);
-            lines.iter_mut().for_each(|line| units.shade(line));
-        }
+        Back::Terrain(units) => W::draw(simd, units, lines),
         Back::Plane(shader) => lines.iter_mut().for_each(|line| shader.run(line)),
     }
 }

@@ -24,20 +24,24 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
     let mut known = Known::new(land, rays.place[0].cell(), rays.place[2].cell());
     let step = rays.step;
     // The last place found clear, and the last one found under the surface.
-    let mut clear: [_; 3] = std::array::from_fn(|axis| rays.place[axis] - step[axis]);
+    let ([x, y, z], [dx, dy, dz]) = (rays.place, step);
+    let mut clear = [x - dx, y - dy, z - dz];
     let mut met = rays.place;
     let before = Known::new(land, clear[0].cell(), clear[2].cell());
     for halving in 1..=most {
-        let middle: [_; 3] = std::array::from_fn(|axis| clear[axis] + step[axis].halved(halving));
-        let [x, y, z] = middle;
+        let [x, y, z] = clear;
+        let (x, y, z) = (x + dx.halved(halving), y + dy.halved(halving), z + dz.halved(halving));
+        let middle = [x, y, z];
         let (i, j) = (x.cell(), z.cell());
         let (after, first) = (known.holds(i, j), before.holds(i, j));
         if (hits & !(after | first)).any_true() {
             known = Known::new(land, i, j);
         }
         let after = known.holds(i, j);
-        let nodes =
-            std::array::from_fn(|at| W::Words::select(after, known.nodes[at], before.nodes[at]));
+        let mut nodes = before.nodes;
+        for (node, known) in nodes.iter_mut().zip(known.nodes) {
+            *node = W::Words::select(after, known, *node);
+        }
         let under = y.less(heights(land, &nodes, x, z)) & land.inside(i, j);
         let halves = times.simd_ge(halving);
         for axis in 0..3 {
@@ -47,8 +51,10 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
     }
     let meets = land.inside(clear[0].cell(), clear[2].cell());
     // The middle of the last interval halves the error for one more addition.
-    let middle: [_; 3] =
-        std::array::from_fn(|axis| clear[axis] + step[axis].halved_each(times + 1));
+    let mut middle = clear;
+    for (middle, step) in middle.iter_mut().zip(step) {
+        *middle = *middle + step.halved_each(times + 1);
+    }
     let in_between = meets & land.inside(middle[0].cell(), middle[2].cell());
     for axis in 0..3 {
         let place = W::Words::select(in_between, middle[axis], met[axis]);
@@ -71,9 +77,10 @@ fn halvings<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &Rays<W, S>) -> (u3
         HalvingRule::Footprint { bias, cap } => {
             let eye = land.stepper.eye();
             let eye = [eye.x.int(), eye.y.int(), eye.z.int()];
-            let away: [_; 3] = std::array::from_fn(|axis| {
-                rays.place[axis] - W::Words::splat(land.simd, eye[axis])
-            });
+            let mut away = rays.place;
+            for (away, eye) in away.iter_mut().zip(eye) {
+                *away = *away - W::Words::splat(land.simd, eye);
+            }
             let leading = W::Words::leading_one(away);
             let times = (bias - leading).max(0).min(cap as i32);
             let of_hits = rays.hits.select(times, times - times).to_array();

@@ -81,7 +81,8 @@ fn gaps<W: Packed, S: Simd>(
     nodes: &Nodes<W, S>,
     on: u32x16<S>,
 ) -> i32x16<S> {
-    let [x, y, z] = std::array::from_fn(|axis| rays.place[axis].after(rays.step[axis], on));
+    let ([x, y, z], [dx, dy, dz]) = (rays.place, rays.step);
+    let (x, y, z) = (x.after(dx, on), y.after(dy, on), z.after(dz, on));
     (y - heights(land, nodes, x, z)).coarse(gap_places::<W, S>())
 }
 

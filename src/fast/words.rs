@@ -9,19 +9,34 @@ use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, i64x8, mask32x16, u32x16, u64x8};
 
 use crate::word::stock::{Narrow, Wide};
-use crate::word::{Interpolating, Lane, World};
+use crate::word::{Interpolating, Lane, Shading, World};
 
 /// Rays of a packet.
 pub const LANES: usize = 16;
 
+/// One value per lane. A loop, and no closure: what the compiler does not inline into a vectorised
+/// function it compiles without vectors.
+macro_rules! lanes {
+    ($lane:ident => $value:expr) => {{
+        let mut values = [Default::default(); $crate::fast::words::LANES];
+        for $lane in 0..$crate::fast::words::LANES {
+            values[$lane] = $value;
+        }
+        values
+    }};
+}
+pub(super) use lanes;
+
 /// A world whose words are plain integers with one binary point: the stock worlds.
 pub trait Packed:
     Interpolating
+    + Shading
     + World<
-        View: Lane,
+        View: Lane<Int = Self::Int>,
         Ground: Lane<Int = Self::Int>,
         Height: Lane<Int = Self::Int>,
         Weight: Lane<Int = Self::Int>,
+        Tone: Lane<Int = Self::Int>,
     >
 {
     /// The integer under ground, height and weight words.
@@ -76,10 +91,21 @@ pub trait Words<S: Simd>: Copy + Add<Output = Self> + Sub<Output = Self> {
     /// Bits of the magnitude shifted right, rounded down, within 31 bits.
     fn coarse_magnitude(self, places: u32) -> u32x16<S>;
     /// How many more steps stay within the block of 2^level cells: too few if `inverse` is that of
-    /// a longer step, never too many (see [`Lane::inverse`]).
+    /// a longer step, never too many; `inverse` is 2^(POINT + 20) over the step, rounded down.
     fn steps_within(self, step: Self, level: u32x16<S>, inverse: u32) -> u32x16<S>;
     /// `self · weight`, weights with the words' point, rounded to nearest, ties upward.
     fn weighted(self, weight: i32x16<S>) -> Self;
+    /// `self · 2^exponent`, rounded to nearest, ties upward.
+    fn rescaled(self, exponent: i32) -> Self;
+    /// `self / 2^places` per lane, at least one place, rounded to nearest, ties upward; the outcome
+    /// has 32 bits.
+    fn reduced(self, places: u32x16<S>) -> i32x16<S>;
+    /// `self / 2^places` per lane, places of either sign, rounded to nearest, ties upward.
+    fn scaled_down(self, places: i32x16<S>) -> Self;
+    /// The words where they have 32 bits.
+    fn low(self) -> i32x16<S>;
+    /// Words of 32 bits.
+    fn widened(words: i32x16<S>) -> Self;
 }
 
 impl<S: Simd> Words<S> for i32x16<S> {
@@ -129,10 +155,11 @@ impl<S: Simd> Words<S> for i32x16<S> {
     #[inline(always)]
     fn leading_one(of: [Self; 3]) -> i32x16<S> {
         // The leading one of all bits together is that of the largest magnitude.
-        let [x, y, z] = of.map(|words| words.max(-words));
+        let [x, y, z] = of;
+        let (x, y, z) = (x.max(-x), y.max(-y), z.max(-z));
         let bits = (x | y | z).to_array();
-        let leading = |lane: usize| 31 - Self::POINT as i32 - bits[lane].leading_zeros() as i32;
-        Self::simd_from(x.token(), std::array::from_fn(leading))
+        let zeros = lanes!(lane => bits[lane].leading_zeros() as i32);
+        31 - Self::POINT as i32 - Self::simd_from(x.token(), zeros)
     }
     #[inline(always)]
     fn fraction(self) -> i32x16<S> {
@@ -162,6 +189,32 @@ impl<S: Simd> Words<S> for i32x16<S> {
         let half = 1_i64 << (Self::POINT - 1);
         ((low + half) >> Self::POINT).narrow((high + half) >> Self::POINT)
     }
+    #[inline(always)]
+    fn rescaled(self, exponent: i32) -> Self {
+        if exponent >= 0 {
+            return self << exponent as u32;
+        }
+        let halves = self >> (exponent.unsigned_abs().min(32) - 1);
+        (halves >> 1) + (halves & 1)
+    }
+    #[inline(always)]
+    fn reduced(self, places: u32x16<S>) -> i32x16<S> {
+        let halves = self >> (places - 1).bitcast::<Self>();
+        (halves >> 1) + (halves & 1)
+    }
+    #[inline(always)]
+    fn scaled_down(self, places: i32x16<S>) -> Self {
+        let down = self.reduced(places.max(1).bitcast());
+        places.simd_gt(0).select(down, self << (-places).max(0))
+    }
+    #[inline(always)]
+    fn low(self) -> i32x16<S> {
+        self
+    }
+    #[inline(always)]
+    fn widened(words: i32x16<S>) -> Self {
+        words
+    }
 }
 
 /// Sixteen words of 64 bits.
@@ -184,10 +237,31 @@ impl<S: Simd> Sub for Pair<S> {
     }
 }
 
+/// Half of [`Words::steps_within`].
+#[inline(always)]
+fn steps_within<S: Simd>(
+    word: i64x8<S>,
+    step: i64x8<S>,
+    level: u64x8<S>,
+    inverse: u32,
+) -> u64x8<S> {
+    const POINT: u32 = <Wide as World>::Ground::FRACTION;
+    let block = u64x8::simd_from(word.token(), u64::MAX) >> (64 - u64::from(POINT) - level);
+    let left = (word ^ !(step >> 63)).bitcast::<u64x8<S>>() & block;
+    (left * u64::from(inverse)) >> (POINT + 20)
+}
+
+/// Half of [`Words::scaled_down`].
+#[inline(always)]
+fn scaled_down<S: Simd>(words: i64x8<S>, places: i64x8<S>) -> i64x8<S> {
+    let halves = words >> (places.max(1) - 1);
+    places.simd_gt(0).select((halves >> 1) + (halves & 1), words << (-places).max(0))
+}
+
 impl<S: Simd> Pair<S> {
     #[inline(always)]
-    fn each(self, f: impl Fn(i64x8<S>) -> i64x8<S>) -> Self {
-        Self(f(self.0), f(self.1))
+    fn magnitude(self) -> Self {
+        Self(self.0.max(-self.0), self.1.max(-self.1))
     }
 }
 
@@ -197,10 +271,8 @@ impl<S: Simd> Words<S> for Pair<S> {
 
     #[inline(always)]
     fn load(simd: S, words: [i64; LANES]) -> Self {
-        Self(
-            i64x8::simd_from(simd, std::array::from_fn(|at| words[at])),
-            i64x8::simd_from(simd, std::array::from_fn(|at| words[at + 8])),
-        )
+        let (low, high) = words.split_at(LANES / 2);
+        Self(i64x8::from_slice(simd, low), i64x8::from_slice(simd, high))
     }
     #[inline(always)]
     fn splat(simd: S, word: i64) -> Self {
@@ -209,8 +281,11 @@ impl<S: Simd> Words<S> for Pair<S> {
     }
     #[inline(always)]
     fn store(self) -> [i64; LANES] {
-        let (low, high) = (self.0.to_array(), self.1.to_array());
-        std::array::from_fn(|at| if at < 8 { low[at] } else { high[at - 8] })
+        let mut words = [0; LANES];
+        let (low, high) = words.split_at_mut(LANES / 2);
+        self.0.store_slice(low);
+        self.1.store_slice(high);
+        words
     }
     #[inline(always)]
     fn select(mask: mask32x16<S>, yes: Self, no: Self) -> Self {
@@ -235,7 +310,7 @@ impl<S: Simd> Words<S> for Pair<S> {
     }
     #[inline(always)]
     fn halved(self, times: u32) -> Self {
-        self.each(|words| words >> times.min(63))
+        Self(self.0 >> times.min(63), self.1 >> times.min(63))
     }
     #[inline(always)]
     fn halved_each(self, times: u32x16<S>) -> Self {
@@ -249,10 +324,11 @@ impl<S: Simd> Words<S> for Pair<S> {
     #[inline(always)]
     fn leading_one(of: [Self; 3]) -> i32x16<S> {
         let simd = of[0].0.token();
-        let [x, y, z] = of.map(|words| words.each(|words| words.max(-words)));
+        let [x, y, z] = of;
+        let (x, y, z) = (x.magnitude(), y.magnitude(), z.magnitude());
         let bits = Self(x.0 | y.0 | z.0, x.1 | y.1 | z.1).store();
-        let leading = |lane: usize| 63 - Self::POINT as i32 - bits[lane].leading_zeros() as i32;
-        i32x16::simd_from(simd, std::array::from_fn(leading))
+        let zeros = lanes!(lane => bits[lane].leading_zeros() as i32);
+        63 - Self::POINT as i32 - i32x16::simd_from(simd, zeros)
     }
     #[inline(always)]
     fn fraction(self) -> i32x16<S> {
@@ -264,24 +340,48 @@ impl<S: Simd> Words<S> for Pair<S> {
     }
     #[inline(always)]
     fn coarse_magnitude(self, places: u32) -> u32x16<S> {
-        let Self(low, high) = self.each(|words| words.max(-words));
+        let Self(low, high) = self.magnitude();
         (low >> places).saturating_narrow(high >> places).bitcast()
     }
     #[inline(always)]
     fn steps_within(self, step: Self, level: u32x16<S>, inverse: u32) -> u32x16<S> {
-        let (level_low, level_high) = level.widen();
-        let simd = self.0.token();
-        let left = |word: i64x8<S>, step: i64x8<S>, level: u64x8<S>| {
-            let block = u64x8::simd_from(simd, u64::MAX) >> (64 - u64::from(Self::POINT) - level);
-            let left = (word ^ !(step >> 63)).bitcast::<u64x8<S>>() & block;
-            (left * u64::from(inverse)) >> (Self::POINT + 20)
-        };
-        left(self.0, step.0, level_low).narrow(left(self.1, step.1, level_high))
+        let (low, high) = level.widen();
+        steps_within(self.0, step.0, low, inverse).narrow(steps_within(self.1, step.1, high, inverse))
     }
     #[inline(always)]
     fn weighted(self, weight: i32x16<S>) -> Self {
         let (low, high) = weight.widen();
         let half = 1_i64 << (Self::POINT - 1);
         Self((self.0 * low + half) >> Self::POINT, (self.1 * high + half) >> Self::POINT)
+    }
+    #[inline(always)]
+    fn rescaled(self, exponent: i32) -> Self {
+        if exponent >= 0 {
+            return Self(self.0 << exponent as u32, self.1 << exponent as u32);
+        }
+        let places = exponent.unsigned_abs().min(64) - 1;
+        let (low, high) = (self.0 >> places, self.1 >> places);
+        Self((low >> 1) + (low & 1), (high >> 1) + (high & 1))
+    }
+    #[inline(always)]
+    fn reduced(self, places: u32x16<S>) -> i32x16<S> {
+        let (low, high) = (places - 1).widen();
+        let low = self.0 >> low.bitcast::<i64x8<S>>();
+        let high = self.1 >> high.bitcast::<i64x8<S>>();
+        ((low >> 1) + (low & 1)).narrow((high >> 1) + (high & 1))
+    }
+    #[inline(always)]
+    fn scaled_down(self, places: i32x16<S>) -> Self {
+        let (low, high) = places.widen();
+        Self(scaled_down(self.0, low), scaled_down(self.1, high))
+    }
+    #[inline(always)]
+    fn low(self) -> i32x16<S> {
+        self.0.narrow(self.1)
+    }
+    #[inline(always)]
+    fn widened(words: i32x16<S>) -> Self {
+        let (low, high) = words.widen();
+        Self(low, high)
     }
 }

@@ -117,7 +117,7 @@ fn side(name: &str, nodes: &str) -> Result<usize, MapError> {
 /// Loads a scene, with `--set` options applied: a built-in one by its name, a file, or a height
 /// file, which gets a scene that looks over it.
 ///
-/// An argument with a path separator or the ending `.toml` is a file; without an argument the
+/// An argument with a path separator or the ending `.toml`, or that exists as a file, is a file; without an argument the
 /// default scene is loaded.
 ///
 /// # Errors
@@ -139,10 +139,11 @@ pub fn load(name_or_path: Option<&str>, sets: &[String]) -> Result<Scene, SceneE
         return overlook::read(Path::new(name), sets, None).map(|overlook| overlook.scene);
     }
     let names = || SCENES.iter().map(|scene| scene.name);
-    if name.contains(is_separator) || name.ends_with(".toml") {
-        return file::read(Path::new(name), sets).map_err(|error| match error {
-            SceneError::Unreadable { file, reason, .. } if !Path::new(name).exists() => {
-                let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    let path = Path::new(name);
+    if name.contains(is_separator) || name.ends_with(".toml") || path.exists() {
+        return file::read(path, sets).map_err(|error| match error {
+            SceneError::Unreadable { file, reason, .. } if !path.exists() => {
+                let stem = path.file_stem().unwrap_or_default().to_string_lossy();
                 let guess = nearest(&stem, names())
                     .map_or_else(String::new, |guess| format!(", did you mean `{guess}`?"));
                 let remedy = format!(

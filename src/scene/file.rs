@@ -53,7 +53,8 @@ pub fn read(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
         let line = 1 + error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count();
         unreadable(
             format!("line {line} is not UTF-8 text"),
-            "give a scene file, which is TOML text; save it in UTF-8",
+            "give a scene file, which is TOML text in UTF-8, or a height file that \
+             `terraline info` understands",
         )
     })?;
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());

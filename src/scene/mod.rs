@@ -185,10 +185,10 @@ pub enum Surface {
 pub struct Terrain {
     /// As written in the scene: a path or `builtin:NAME`.
     pub source: String,
-    /// How the map's file packs its heights.
-    pub encoding: Encoding,
     /// The samples, with `nodata` carried out: nodes that are NaN are holes.
     pub map: Arc<HeightMap>,
+    /// How the samples of the file stand for heights.
+    pub encoding: Encoding,
     /// Cell size (Lx, Lz) in scene units, positive.
     pub cell: DVec2,
     /// `y = (sample - offset) * scale`.

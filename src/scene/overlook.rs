@@ -3,6 +3,7 @@
 //! The scene is written as TOML and read like any other, so what [`Overlook::file`] hands out draws
 //! the same picture.
 
+mod ramp;
 mod text;
 mod view;
 

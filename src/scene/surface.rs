@@ -128,7 +128,7 @@ fn terrain(table: &Fields<'_>, maps: Maps<'_>) -> Result<Surface, SceneError> {
     let map = apply(map, nodata);
     let cell = cell.unwrap_or_else(|| default_cell(&source, &map));
     let terrain =
-        Terrain { source, encoding, map, cell, offset, scale, outside, nodata, base_depth };
+        Terrain { source, map, encoding, cell, offset, scale, outside, nodata, base_depth };
     check_extent(table, &terrain)?;
     Ok(Surface::Terrain(terrain))
 }

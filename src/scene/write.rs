@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use glam::DVec3;
 
 use super::{
-    Angles, Attitude, Deformation, Encoding, Extent, FormatRequest, Halvings, KernelShape, NoData,
-    Outside, Overflow, Rounding, Scene, Screen, StepperMode, Surface, WordSize,
+    Angles, Attitude, Deformation, Extent, FormatRequest, Halvings, KernelShape, NoData, Outside,
+    Overflow, Rounding, Scene, Screen, StepperMode, Surface, WordSize,
 };
 
 /// The scene file of a scene. `map` is written as the path of its height map, if it has one that
@@ -121,9 +121,7 @@ fn surface(out: &mut Tables, surface: &Surface, map: &str) {
             let built_in = terrain.source.starts_with("builtin:");
             out.key("kind", text("terrain"));
             out.key("map", text(if built_in { &terrain.source } else { map }));
-            if terrain.encoding != Encoding::Stored {
-                out.key("encoding", text(terrain.encoding.name()));
-            }
+            out.key("encoding", text(terrain.encoding.name()));
             out.key("cell", list([terrain.cell.x, terrain.cell.y].map(number)));
             let (offset, scale) = (number(terrain.offset), number(terrain.scale));
             out.key("height", format!("{{ offset = {offset}, scale = {scale} }}"));

@@ -18,7 +18,7 @@ use super::pane::Pane;
 pub struct Session {
     scene: Scene,
     full: bool,
-    map: String,
+    map: Option<String>,
     first: (Camera, Screen),
     panes: [Pane; 2],
     divider: Option<f64>,
@@ -39,6 +39,10 @@ const DOLLY_SECONDS: f64 = 0.25;
 /// Speed: this share of the height above ground a second, and that of the map's width.
 const SPEED: (f64, f64) = (0.5, 1.0 / 300.0);
 
+/// Why a scene cannot be copied out.
+const NO_PATH: &str =
+    "no scene file can name this map, its path is not UTF-8 text: rename its folder";
+
 /// Eyes are kept above the ground by this share of a cell.
 const CLEARANCE: f64 = 0.01;
 
@@ -47,9 +51,15 @@ const LARGEST_SHIFT: u32 = 24;
 
 impl Session {
     /// A scene whose first screen is looked at. `map` is the path of its height map for scenes
-    /// that are copied out.
+    /// that are copied out; without it none can be.
     #[must_use]
-    pub fn new(scene: Scene, full: bool, map: String, engine: Engine, layout: Layout) -> Self {
+    pub fn new(
+        scene: Scene,
+        full: bool,
+        map: Option<String>,
+        engine: Engine,
+        layout: Layout,
+    ) -> Self {
         let pane = Pane { engine, picture: Picture::Color };
         let right = Pane { picture: Picture::Steps, ..pane };
         let mut session = Self {
@@ -222,8 +232,12 @@ impl Session {
             }
             Action::Screenshot => return Some(Effect::Screenshot),
             Action::CopyScene => {
+                let Some(map) = &self.map else {
+                    self.notice = Some(NO_PATH.into());
+                    return None;
+                };
                 self.notice = Some("the scene is printed in the terminal".into());
-                return Some(Effect::Print(write::toml(&self.scene, &self.map)));
+                return Some(Effect::Print(write::toml(&self.scene, map)));
             }
             Action::Quit => return Some(Effect::Quit),
         }

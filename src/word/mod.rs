@@ -237,9 +237,6 @@ pub trait Lane: Enter {
 
     /// The word of these bits.
     fn of_int(int: Self::Int) -> Self;
-
-    /// `floor(2^(FRACTION + 20) / |self|)`, at most 2^26.
-    fn inverse(self) -> u32;
 }
 
 /// A number world: a word type per register class, and the format of every register.

@@ -200,11 +200,6 @@ macro_rules! stock_words {
                 fn of_int(int: $int) -> Self {
                     Self::of(int)
                 }
-                #[inline(always)]
-                fn inverse(self) -> u32 {
-                    let step = u64::from(self.bits().unsigned_abs()).max(1);
-                    ((1_u64 << (Self::POINT + 20)) / step).min(1 << 26) as u32
-                }
             }
         )*
     };

@@ -38,8 +38,8 @@ pub fn kernels() -> impl Iterator<Item = Kernel> {
 pub fn terrain(columns: usize, rows: usize, samples: Vec<f32>) -> Terrain {
     Terrain {
         source: "by hand".into(),
-        encoding: Encoding::Stored,
         map: Arc::new(HeightMap::new(columns, rows, samples)),
+        encoding: Encoding::Stored,
         cell: DVec2::ONE,
         offset: 0.0,
         scale: 1.0,

@@ -66,8 +66,8 @@ pub fn over(map: HeightMap, columns: u32, lines: u32) -> Scene {
         }],
         surface: Surface::Terrain(Terrain {
             source: "hand".into(),
-            encoding: Encoding::Stored,
             map: Arc::new(map),
+            encoding: Encoding::Stored,
             cell: DVec2::ONE,
             offset: 0.0,
             scale: 1.0,

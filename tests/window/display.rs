@@ -100,6 +100,65 @@ fn a_window_shows_what_render_draws() {
 }
 
 #[test]
+fn a_height_file_is_looked_over() {
+    let Some(display) = Display::new() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    for name in ["maps", "scenes", "else"] {
+        std::fs::create_dir(path(name)).expect("a folder");
+    }
+    // Heights packed in colours, and a hole.
+    image::RgbaImage::from_fn(40, 30, |i, j| {
+        let alpha = if (10..15).contains(&i) && (5..9).contains(&j) { 0 } else { 255 };
+        image::Rgba([130, ((i * i + j * 30) / 8) as u8, 7, alpha])
+    })
+    .save(path("maps/tile.png"))
+    .expect("a picture");
+    let dem = ["maps/tile.png", "--set", "surface.encoding=terrarium", "--size", "300x170"];
+    let keys = ["--frames", "3", "--keys", "tab c", "--screenshot", "window.png"];
+    let out = ["--scene-out", "scenes/chosen.toml"];
+    let view = [&["view"][..], &dem, &keys, &out].concat();
+    let seen = terraline(folder.path(), Some(&display.name), &view);
+    if String::from_utf8_lossy(&seen.stderr).contains("failed to load") {
+        eprintln!("skipped: {}", String::from_utf8_lossy(&seen.stderr));
+        return;
+    }
+    succeeds(&seen);
+    assert!(String::from_utf8_lossy(&seen.stderr).contains("no data"), "what was chosen is said");
+    std::fs::write(path("else/copied.toml"), &seen.stdout).expect("a file");
+    let window = png::read(&path("window.png")).expect("a picture");
+    // The size of the window fits the whole map in, as that of a picture does.
+    let bare = [&["render"][..], &dem].concat();
+    for (from, render) in [
+        ("", &bare[..]),
+        ("scenes", &["render", "chosen.toml"]),
+        ("else", &["render", "copied.toml"]),
+        ("maps", &["render", "../else/copied.toml"]),
+    ] {
+        let frame = path("frame.png");
+        let to = ["--sample", "0", "-o", frame.to_str().expect("text")];
+        succeeds(&terraline(&path(from), None, &[render, &to].concat()));
+        assert_eq!(window, png::read(&frame).expect("a picture"), "{from}: {render:?}");
+    }
+
+    // Without a window nothing is written.
+    let view = ["view", "maps/tile.png", "--set", "surface.encoding=terrarium"];
+    for (options, names) in [
+        (&["--scene-out", "no.toml"][..], "terraline render"),
+        (&["--scene-out", "no/no.toml"], "no/no.toml"),
+        (&["--scene-out", "maps/tile.png"], "maps/tile.png"),
+        (&["--scene-out", "no.png", "--frames", "1", "--screenshot", "./no.png"], "two names"),
+        (&["--scene-out", "no.toml", "--format", "ground=24.8"], "--format"),
+    ] {
+        let output = terraline(folder.path(), None, &[&view[..], options].concat());
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{options:?}: {stderr}");
+        assert!(stderr.contains(names) && stderr.lines().count() == 1, "{options:?}: {stderr}");
+        assert!(!path("no.toml").exists() && !path("no.png").exists());
+    }
+}
+
+#[test]
 fn without_a_display_one_message_names_render() {
     let folder = tempfile::tempdir().expect("a folder");
     for display in [None, Some(""), Some(":4711"), Some("nowhere")] {

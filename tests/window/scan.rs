@@ -13,7 +13,7 @@ use super::{frame, run, scene};
 fn lines_fall_as_they_are_granted() {
     let scene = scene("overview", &["screen.size=[80, 60]"]);
     let layout = Layout::new(80, 60, 1);
-    let mut session = Session::new(scene.clone(), false, String::new(), Engine::Fast, layout);
+    let mut session = Session::new(scene.clone(), false, Some(String::new()), Engine::Fast, layout);
     let order = Order { by_lines: true, ..session.order().unwrap() };
     let drawing = Drawing::start(order).unwrap();
     let whole = frame(&scene, (80, 60), Engine::Fast).color;
@@ -39,7 +39,7 @@ fn lines_fall_as_they_are_granted() {
 fn two_engines_fall_side_by_side() {
     let scene = scene("valley", &["screen.size=[80, 60]"]);
     let layout = Layout::new(80, 60, 1);
-    let mut session = Session::new(scene.clone(), false, String::new(), Engine::Fast, layout);
+    let mut session = Session::new(scene.clone(), false, Some(String::new()), Engine::Fast, layout);
     let first = session.order().unwrap();
     let panes: Vec<Pane> = [Engine::Processor, Engine::Oracle]
         .map(|engine| Pane { engine, ..first.panes[0] })

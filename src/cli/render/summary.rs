@@ -75,7 +75,7 @@ pub(super) struct Summary {
 impl Render {
     /// Measures a drawn frame.
     pub(super) fn summarise(&self, planned: &Planned, drawn: &Drawn) -> Result<Summary, Stop> {
-        let Planned { scene, plan, world, invocation, overlook } = planned;
+        let Planned { scene, plan, world, invocation, overlook, .. } = planned;
         let count = |hit| drawn.frame.hit.iter().filter(|h| **h == hit).count();
         let mut times: Vec<f64> = drawn.times.iter().map(|t| t.as_secs_f64() * 1e3).collect();
         times.sort_by(f64::total_cmp);
@@ -237,7 +237,7 @@ impl Render {
         for chosen in planned.overlook.iter().flat_map(|overlook| &overlook.chosen) {
             out.push(format!("  chosen    {chosen}"));
         }
-        for path in self.outputs() {
+        for (_, path) in self.outputs() {
             out.push(format!("  wrote     {}", path.display()));
         }
         out.join("\n")

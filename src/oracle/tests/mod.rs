@@ -13,9 +13,8 @@ use glam::{DVec2, DVec3};
 
 use super::Oracle;
 use crate::scene::{
-    Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, HeightMap, Kernel,
-    KernelShape, Light, Machine, Outside, Scene, Screen, Stepper, StepperMode, Surface, Terrain,
-    WordSize,
+    Attitude, Camera, Colors, Deformation, Extent, Halvings, HeightMap, Kernel, KernelShape, Light,
+    Machine, Outside, Scene, Screen, Stepper, StepperMode, Surface, Terrain, WordSize,
 };
 
 /// Every shape.
@@ -73,8 +72,8 @@ pub(super) fn with_holes(map: &HeightMap, share: f64, seed: u64) -> HeightMap {
 pub(super) fn terrain(map: HeightMap, outside: Outside) -> Terrain {
     Terrain {
         source: "test".into(),
-        encoding: Encoding::Stored,
         map: Arc::new(map),
+        encoding: crate::scene::Encoding::Stored,
         cell: DVec2::new(1.5, 0.75),
         offset: 50.0,
         scale: 0.03,

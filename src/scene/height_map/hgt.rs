@@ -139,8 +139,11 @@ pub(super) fn unzip(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
     let [tile] = tiles.as_slice() else {
         return Err(MapError::new(
             name,
-            format!("the zip file holds {} .hgt files, not one", tiles.len()),
-            "unpack it and give the height file itself",
+            match tiles.len() {
+                0 => "the zip file holds no .hgt file".to_owned(),
+                count => format!("the zip file holds {count} .hgt files"),
+            },
+            "unpack it and give a height file",
         ));
     };
     let entry = archive.by_name(tile).map_err(|error| damaged(&error.to_string()))?;

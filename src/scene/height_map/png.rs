@@ -128,7 +128,8 @@ fn check_color(
     let remedy = if tile {
         format!(
             "{remedy}, or, where the colours are packed heights, say so with surface.encoding = \
-             \"terrain-rgb\" or \"terrarium\""
+             \"terrain-rgb\" or \"terrarium\" (--set surface.encoding=terrarium; for info \
+             --encoding terrarium)"
         )
     } else {
         remedy.to_owned()

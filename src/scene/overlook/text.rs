@@ -53,15 +53,12 @@ pub(super) fn write(view: &View, map: &str, encoding: Encoding) -> String {
     line("nodata = \"hole\"  # hole | nearest | a height sample");
     line("");
     line("[light]");
-    line("direction = [-1.0, 1.5, -1.0]  # from the north-west");
-    line("ambient = 0.3");
+    line("direction = [-1.0, 1.6, -0.3]  # from the west, a little from the north");
+    line("ambient = 0.35");
     line("");
     line("[color]");
-    line("# From the lowest node to the highest: lowland, meadow, steppe, rock, scree, snow.");
-    line(
-        "ramp = [[66, 110, 66], [142, 166, 96], [214, 198, 138], [170, 128, 92], [150, 138, 132], \
-          [248, 248, 250]]",
-    );
+    line("# From the lowest node to the highest, evenly spaced.");
+    line(&format!("ramp = {:?}", view.ramp));
     line("sky = [186, 208, 230]");
     line("far = [186, 208, 230]");
     line("side = [104, 92, 78]");

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::super::height_map::Georeference;
-use super::{HeightMap, cells};
+use super::{HeightMap, cells, ramp};
 
 /// Metres of a cell where nothing is known.
 const ASSUMED_CELL_M: f64 = 30.0;
@@ -53,6 +53,7 @@ pub(super) struct View {
     /// In degrees.
     pub(super) heading: f64,
     pub(super) size: (u32, u32),
+    pub(super) ramp: Vec<[u8; 3]>,
     /// What was chosen, a sentence each.
     pub(super) reasons: Vec<String>,
 }
@@ -110,7 +111,12 @@ impl View {
 
         // From the south-south-west; over a long map from north to south, rather from its side.
         let heading = if extent.y > 2.0 * extent.x { 25.0 } else { 70.0 };
-        let position = overlooking(extent, -base_depth, top, heading, size);
+        let height = |sample: f32| (f64::from(sample) - f64::from(low)) * scale;
+        let outline = outline(map, cell, -base_depth, height);
+        let position = overlooking(&outline, top, heading, size);
+        let (ramp, sea) = ramp::choose(map, height_unit_m);
+        reasons.extend(sea);
+        reasons.extend(holes(map));
         Ok(Self {
             unit_m,
             cell,
@@ -121,6 +127,7 @@ impl View {
             position,
             heading,
             size,
+            ramp,
             reasons,
         })
     }
@@ -153,12 +160,45 @@ fn exaggeration(share: f64, known: bool, reasons: &mut Vec<String>) -> f64 {
     chosen
 }
 
-/// Where a camera sees a box over `extent`, from `bottom` to `top`, as large as the screen allows.
+/// What becomes of nodes without data.
+fn holes(map: &HeightMap) -> Option<String> {
+    let voids = map.voids();
+    let share = 100.0 * voids as f64 / map.samples().len() as f64;
+    (voids > 0).then(|| {
+        let s = if voids == 1 { " has" } else { "s have" };
+        format!(
+            "{voids} node{s} no data ({share:.2} %) and become{} holes: surface.nodata=nearest \
+             fills them",
+            if voids == 1 { "s" } else { "" }
+        )
+    })
+}
+
+/// Corners of boxes that enclose all ground, a box for each row of nodes.
+fn outline(map: &HeightMap, cell: DVec2, bottom: f64, height: impl Fn(f32) -> f64) -> Vec<DVec3> {
+    let mut corners = Vec::new();
+    for (j, row) in map.samples().chunks_exact(map.columns()).enumerate() {
+        let data = |sample: &f32| !sample.is_nan();
+        let (Some(west), Some(east)) = (row.iter().position(data), row.iter().rposition(data))
+        else {
+            continue;
+        };
+        let top = height(row.iter().copied().fold(f32::NEG_INFINITY, f32::max));
+        for i in [west, east] {
+            for y in [bottom, top] {
+                corners.push(DVec3::new(i as f64 * cell.x, y, j as f64 * cell.y));
+            }
+        }
+    }
+    corners
+}
+
+/// Where a camera sees all these points as large as the screen allows, from above `top`.
 ///
-/// With the camera's axes u, v and w, a corner p is seen if |p·w - a| ≤ k (p·u + D) for a camera
+/// With the camera's axes u, v and w, a point p is seen if |p·w - a| ≤ k (p·u + D) for a camera
 /// at a w + b v - D u, and likewise for v. Of A = max(p·w - k p·u) and B = max(-p·w - k p·u), the
 /// nearest camera has a = (A - B)/2 and D = (A + B)/2k; the larger D of the two axes serves both.
-fn overlooking(extent: DVec2, bottom: f64, top: f64, heading: f64, size: (u32, u32)) -> DVec3 {
+fn overlooking(points: &[DVec3], top: f64, heading: f64, size: (u32, u32)) -> DVec3 {
     let (sin, cos) = (libm::sin(heading.to_radians()), libm::cos(heading.to_radians()));
     let (dip, flat) = (libm::sin(PITCH.to_radians()), libm::cos(PITCH.to_radians()));
     let u = DVec3::new(cos * flat, dip, -sin * flat);
@@ -168,21 +208,17 @@ fn overlooking(extent: DVec2, bottom: f64, top: f64, heading: f64, size: (u32, u
     let up = across * f64::from(size.1) / f64::from(size.0);
     let fit = |axis: DVec3, k: f64| {
         let mut most = [f64::NEG_INFINITY; 2];
-        for x in [0.0, extent.x] {
-            for y in [bottom, top] {
-                for z in [0.0, extent.y] {
-                    let p = DVec3::new(x, y, z);
-                    most[0] = most[0].max(p.dot(axis) - k * p.dot(u));
-                    most[1] = most[1].max(-p.dot(axis) - k * p.dot(u));
-                }
-            }
+        for p in points {
+            most[0] = most[0].max(p.dot(axis) - k * p.dot(u));
+            most[1] = most[1].max(-p.dot(axis) - k * p.dot(u));
         }
         ((most[0] - most[1]) / 2.0, (most[0] + most[1]) / (2.0 * k))
     };
     let ((a, d_w), (b, d_v)) = (fit(w, across), fit(v, up));
     let mut distance = d_w.max(d_v);
     let place = |distance: f64| w * a + v * b - u * distance;
-    // On a very high screen the box may fit from below its top: step back, which is up.
+    // On a very high screen all may fit from below the top: step back, which is up.
+    let bottom = points.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
     let least = top + (top - bottom) / 8.0;
     if place(distance).y < least {
         distance += (least - place(distance).y) / -u.y;
@@ -202,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn every_corner_is_on_the_screen_and_the_eye_above() {
+    fn all_ground_is_on_the_screen_and_the_eye_above() {
         for (columns, rows) in [(2, 2), (344, 344), (16384, 2), (2, 16384), (40, 1000)] {
             for relief in [0.0, 1.0, 3000.0] {
                 for size in [(1280, 800), (640, 640), (200, 900), (2000, 100)] {
@@ -211,9 +247,10 @@ mod tests {
                     assert!(view.position.y > top, "{view:?}");
                     let psi = view.heading.to_radians();
                     let theta = PITCH.to_radians();
-                    for (x, z) in [(0, 0), (columns - 1, 0), (0, rows - 1), (columns - 1, rows - 1)]
-                    {
-                        for y in [-view.base_depth, top] {
+                    let (east, south) = (columns - 1, rows - 1);
+                    let peak = (3 % columns, 3 / columns);
+                    for (x, z) in [(0, 0), (east, 0), (0, south), (east, south), peak] {
+                        for y in [-view.base_depth, if (x, z) == peak { top } else { 0.0 }] {
                             let corner =
                                 DVec3::new(x as f64 * view.cell.x, y, z as f64 * view.cell.y);
                             let p = corner - view.position;

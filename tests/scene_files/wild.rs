@@ -157,9 +157,10 @@ fn colors(counts: std::ops::RangeInclusive<usize>) -> Text {
 /// `key = value`, of each key or none; keys that end in `!` are always there.
 fn keys(keys: Vec<(&'static str, Text)>) -> BoxedStrategy<Vec<String>> {
     let line = |(key, value): (&'static str, Text)| {
-        let share = if key.ends_with('!') { 1.0 } else { 0.6 };
+        let always = key.ends_with('!');
         let key = key.trim_end_matches('!');
-        weighted(share, value.prop_map(move |value| format!("{key} = {value}")))
+        let line = value.prop_map(move |value| format!("{key} = {value}"));
+        if always { line.prop_map(Some).boxed() } else { weighted(0.6, line).boxed() }
     };
     let lines: Vec<_> = keys.into_iter().map(line).collect();
     lines.prop_map(|lines| lines.into_iter().flatten().collect()).boxed()
@@ -275,14 +276,19 @@ fn machine() -> Text {
     tables.prop_map(|tables| tables.concat()).boxed()
 }
 
-fn formats() -> Text {
-    let rounding = ["floor", "toward_zero", "nearest", "nearest_even", "stochastic"];
-    let format = (prop_oneof![14..=62_u32, 28..=62_u32], 0..=40_u32, word(&rounding), word(&["wrap", "saturate"])).prop_map(
+fn format() -> Text {
+    let rounding = word(&["floor", "toward_zero", "nearest", "nearest_even", "stochastic"]);
+    let width = prop_oneof![14..=62_u32, 28..=62_u32];
+    let format = (width, 0..=40_u32, rounding, word(&["wrap", "saturate"])).prop_map(
         |(width, point, rounding, overflow)| {
             let point = point.min(width - 10);
             format!("{{ width = {width}, point = {point}, rounding = {rounding}, overflow = {overflow} }}")
         },
     );
+    or_wild(format)
+}
+
+fn formats() -> Text {
     let odd = ["\"\"", "\"a\\nb\"", "grund", "slope_x"];
     let names = vec![
         select(vec!["view", "denominator", "view_x"]),
@@ -290,7 +296,7 @@ fn formats() -> Text {
         select(vec!["height", "ray_y", "node"]),
         select([&["weight", "tone"].repeat(20)[..], &odd].concat()),
     ];
-    (names, vec(weighted(0.5, or_wild(format)), 4))
+    (names, vec(weighted(0.5, format()), 4))
         .prop_map(|(names, formats)| {
             let line =
                 |(name, format): (_, Option<String>)| Some(format!("{name} = {}\n", format?));
@@ -314,72 +320,58 @@ pub fn scenes() -> BoxedStrategy<String> {
         .boxed()
 }
 
-/// A `--set` option of any key and value.
+/// A `--set` option: most are sound by themselves.
 pub fn options() -> BoxedStrategy<String> {
-    let keys = vec![
-        "unit_m",
-        "seed",
-        "camera",
-        "camera.position",
-        "camera.position.1",
-        "camera.offset",
-        "camera.heading",
-        "camera.pitch",
-        "camera.roll",
-        "camera.forward",
-        "camera.up",
-        "screen",
-        "screen.size",
-        "screen.fov",
-        "screen.0.fov",
-        "screen.1.pixel",
-        "screen.distance",
-        "screen.center",
-        "screen.mount.roll",
-        "screen.name",
-        "surface.kind",
-        "surface.map",
-        "surface.cell",
-        "surface.height.offset",
-        "surface.height.scale",
-        "surface.outside",
-        "surface.nodata",
-        "surface.base_depth",
-        "surface.encoding",
-        "surface.normal",
-        "surface.distance",
-        "surface.checker",
-        "kernel.shape",
-        "kernel.deformation",
-        "kernel.weight_shift",
-        "kernel.table",
-        "stepper.mode",
-        "stepper.fineness",
-        "stepper.halvings",
-        "light.direction",
-        "light.ambient",
-        "color.ramp",
-        "color.ramp.0",
-        "color.checker",
-        "machine.clock_mhz",
-        "machine.memory_latency",
-        "machine.words",
-        "format.view",
-        "format.ground.width",
-        "format.a\nb",
-    ];
-    let value = prop_oneof![
-        3 => edge(),
-        3 => number(0.0..70.0),
-        2 => numbers::<3>(-50.0..50.0),
-        1 => numbers::<2>(0.0..50.0),
-        1 => word(&MAPS),
-        2 => word(&["plane", "terrain", "wrap", "clamp", "sky", "hat", "plain", "wide", "narrow"]),
-        1 => formats().prop_map(|formats| formats.lines().nth(1).map_or(String::new(), |line| {
-            line.split_once('=').map_or(String::new(), |(_, format)| format.trim().to_owned())
-        })),
-    ];
-    (select(keys), value).prop_map(|(key, value)| format!("{key}={value}")).boxed()
+    let named = || -> Vec<(&'static str, Text)> {
+        vec![
+            ("unit_m", number(0.1..90.0)),
+            ("seed", count(0..=u32::MAX)),
+            ("camera.position", numbers::<3>(0.0..50.0)),
+            ("camera.position.1", number(0.0..50.0)),
+            ("camera.heading", number(-400.0..400.0)),
+            ("camera.pitch", number(-90.0..90.0)),
+            ("camera.roll", number(-180.0..180.0)),
+            ("camera.forward", numbers::<3>(-2.0..2.0)),
+            ("camera.up", numbers::<3>(-2.0..2.0)),
+            ("screen.size", list(vec![count(1..=4000), count(1..=4000)])),
+            ("screen.fov", number(0.1..175.0)),
+            ("screen.1.fov", number(0.1..175.0)),
+            ("screen.0.pixel.1", number(0.001..1.0)),
+            ("screen.center", numbers::<2>(-9.0..9.0)),
+            ("screen.mount.roll", number(-180.0..180.0)),
+            ("screen.name", word(&["left", "a b", "a\\nb"])),
+            ("surface.kind", word(&["plane", "terrain"])),
+            ("surface.map", word(&MAPS)),
+            ("surface.cell", numbers::<2>(0.01..20.0)),
+            ("surface.height.offset", number(-400.0..400.0)),
+            ("surface.height.scale", number(0.0001..2.0)),
+            ("surface.outside", word(&["wrap", "clamp", "sky"])),
+            ("surface.nodata", number(-400.0..900.0)),
+            ("surface.base_depth", number(0.001..99.0)),
+            ("surface.encoding", word(&["terrarium", "terrain-rgb", "stored"])),
+            ("kernel.shape", word(&["hat", "exponential"])),
+            ("kernel.weight_shift", count(0..=64)),
+            ("stepper.mode", word(&["plain", "skipping"])),
+            ("stepper.fineness", count(0..=6)),
+            ("stepper.halvings", count(0..=20)),
+            ("light.direction", numbers::<3>(-1.0..1.0)),
+            ("color.ramp.0", color()),
+            ("color.checker", colors(2..=2)),
+            ("machine.clock_mhz", number(0.1..99.0)),
+            ("machine.words", word(&["wide", "narrow", "auto"])),
+            ("format.ground", format()),
+            ("format.view", format()),
+            ("format.ground.width", count(20..=62)),
+            ("format.a\nb", format()),
+        ]
+    };
+    let keys: Vec<&str> = named().iter().map(|(key, _)| *key).collect();
+    let fit = proptest::strategy::Union::new(
+        named().into_iter().map(|(key, value)| (Just(key), value).boxed()),
+    );
+    prop_oneof![5 => fit, 1 => (select(keys), edge())]
+        .prop_map(|(key, value)| format!("{key}={value}"))
+        .boxed()
 }
 
 /// One change of a text.
@@ -391,6 +383,8 @@ pub enum Damage {
     Value(Index, String),
     /// A number becomes another.
     Number(Index, String),
+    /// A number is multiplied; a whole one stays whole.
+    Scale(Index, f64),
     /// A line goes.
     Drop(Index),
     /// A line is repeated at another place.
@@ -404,12 +398,20 @@ pub fn damages() -> BoxedStrategy<Damage> {
     let any_index = any::<Index>;
     let token = prop_oneof![3 => select(TOKENS.to_vec()).prop_map(str::to_owned), 1 => edge(), 1 => "\\PC{0,3}"];
     let sound = prop_oneof![number(-20.0..400.0), number(0.0..4.0)];
+    let factor = prop_oneof![
+        Just(-1.0),
+        Just(0.5),
+        0.8..1.25,
+        0.1..10.0,
+        (-6.0..6.0_f64).prop_map(|e| 10.0_f64.powf(e))
+    ];
     let damage = prop_oneof![
         2 => (any_index(), 0..8_usize, token).prop_map(|(at, n, text)| Damage::Characters(at, n, text)),
         2 => (any_index(), edge()).prop_map(|(at, text)| Damage::Value(at, text)),
         1 => (any_index(), numbers::<3>(-20.0..400.0)).prop_map(|(at, text)| Damage::Value(at, text)),
-        12 => (any_index(), sound).prop_map(|(at, text)| Damage::Number(at, text)),
-        4 => (any_index(), edge()).prop_map(|(at, text)| Damage::Number(at, text)),
+        20 => (any_index(), factor).prop_map(|(at, factor)| Damage::Scale(at, factor)),
+        2 => (any_index(), sound).prop_map(|(at, text)| Damage::Number(at, text)),
+        2 => (any_index(), edge()).prop_map(|(at, text)| Damage::Number(at, text)),
         2 => any_index().prop_map(Damage::Drop),
         1 => (any_index(), any_index()).prop_map(|(from, to)| Damage::Repeat(from, to)),
         1 => any_index().prop_map(Damage::Cut),
@@ -446,14 +448,7 @@ impl Damage {
                     *line = format!("{key} = {value}");
                 }
             }
-            Self::Number(at, value) => {
-                let numbers = numbers_in(text);
-                if numbers.is_empty() {
-                    return text.to_owned();
-                }
-                let place = numbers[at.index(numbers.len())].clone();
-                return format!("{}{value}{}", &text[..place.start], &text[place.end..]);
-            }
+            Self::Number(..) | Self::Scale(..) => return self.to_a_number(text),
             Self::Drop(at) => drop(lines.remove(at.index(lines.len()))),
             Self::Repeat(from, to) => {
                 let line = lines[from.index(lines.len())].clone();
@@ -465,6 +460,26 @@ impl Damage {
             }
         }
         lines.join("\n")
+    }
+
+    fn to_a_number(&self, text: &str) -> String {
+        let numbers = numbers_in(text);
+        let (Self::Number(at, _) | Self::Scale(at, _)) = self else { return text.to_owned() };
+        if numbers.is_empty() {
+            return text.to_owned();
+        }
+        let place = numbers[at.index(numbers.len())].clone();
+        let old = &text[place.clone()];
+        let new = match self {
+            Self::Number(_, new) => new.clone(),
+            Self::Scale(_, factor) => match (old.parse::<i64>(), old.parse::<f64>()) {
+                (Ok(whole), _) => format!("{}", (whole as f64 * factor) as i64),
+                (_, Ok(number)) => format!("{:?}", number * factor),
+                _ => old.to_owned(),
+            },
+            _ => old.to_owned(),
+        };
+        format!("{}{new}{}", &text[..place.start], &text[place.end..])
     }
 }
 

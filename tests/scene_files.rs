@@ -12,8 +12,12 @@ use terraline::scene::{
 
 mod support;
 
+#[path = "scene_files/damage.rs"]
+mod damage;
 #[path = "scene_files/fuzz.rs"]
 mod fuzz;
+#[path = "scene_files/grids.rs"]
+mod grids;
 #[path = "scene_files/hostile.rs"]
 mod hostile;
 #[path = "scene_files/messages.rs"]

@@ -1,6 +1,9 @@
 //! One clear message for everything a scene file can get wrong.
 
-use super::{assert_says, try_scene};
+use terraline::engine::FixedWorld;
+use terraline::plan::Plan;
+
+use super::{assert_says, scene, try_scene};
 
 /// The text fails with a message that holds the words and, after them, a remedy.
 #[track_caller]
@@ -154,6 +157,8 @@ fn values_out_of_range() {
         ("size = [4.5, 4]", ["found 4.5", "whole numbers"]),
         ("fov = 0", ["screen.fov", "above 0"]),
         ("fov = 175.5", ["screen.fov", "at most 175"]),
+        // In radians these would be no angle any more.
+        ("fov = 5e-324", ["screen.fov", "from 1e-9"]),
         ("name = \"\"", ["screen.name", "1 to 64 characters"]),
         ("name = \"../x\"", ["screen.name", "without slashes"]),
         ("distance = 1", ["screen.distance", "pixel"]),
@@ -183,6 +188,24 @@ fn values_out_of_range() {
     ] {
         assert_fails(&format!("[[surface]]\n{line}"), &["line 2", words[0], words[1]]);
     }
+}
+
+#[test]
+fn odd_names_stay_on_one_line() {
+    for (text, word) in [
+        ("[format]\n\"a\\nb\" = 3", "format.a\\nb"),
+        ("\"a\\nb\" = 3", "`a\\nb`"),
+        ("[[surface]]\nmap = \"a\\nb.asc\"", "a\\nb.asc: there is no such file"),
+    ] {
+        assert_fails(text, &[word]);
+    }
+    let error = try_scene("", &["format.a\nb=3"]).unwrap_err();
+    assert_says(&error, &["--set format.a\\nb: found 3"]);
+    // Names of registers are looked up when the plan is known.
+    let scene = scene("[format]\n\"a\\nb\" = { width = 30, point = 9 }", &[]);
+    let plan = Plan::new(&scene, None, false).unwrap();
+    let message = FixedWorld::of(&scene, &plan).unwrap_err().to_string();
+    assert!(message.starts_with("format.a\\nb: no register") && message.lines().count() == 1);
 }
 
 #[test]

@@ -1,12 +1,12 @@
-//! Scene files as text: random ones, of sound and of wild values, and damage to any.
+//! Random scene files and options: sound values, and now and then a wild one.
 
 use proptest::collection::vec;
 use proptest::option::weighted;
 use proptest::prelude::*;
-use proptest::sample::{Index, select};
+use proptest::sample::select;
 
-/// A TOML value.
-type Text = BoxedStrategy<String>;
+/// A TOML value, or a part of a scene file.
+pub type Text = BoxedStrategy<String>;
 
 /// Maps that the fuzzed scenes find in their folder, beside the built-in ones; the last is missing.
 pub const MAPS: [&str; 9] = [
@@ -21,7 +21,7 @@ pub const MAPS: [&str; 9] = [
     "missing\\nfile.asc",
 ];
 
-/// Values that are at an end of some range, or beyond.
+/// Values at an end of some range, or beyond.
 const EDGES: [&str; 40] = [
     "0",
     "-0.0",
@@ -65,41 +65,8 @@ const EDGES: [&str; 40] = [
     "\"\\u0000\\n\\u202e\"",
 ];
 
-/// Texts that mean something in a scene file.
-const TOKENS: [&str; 30] = [
-    "\n",
-    "=",
-    ".",
-    ",",
-    "[",
-    "]",
-    "[[",
-    "]]",
-    "{",
-    "}",
-    "\"",
-    "'",
-    "#",
-    "\\",
-    "\"\"\"",
-    "-",
-    "e9",
-    "e-9",
-    "0",
-    "9",
-    "nan",
-    "\u{feff}",
-    "\u{0}",
-    "\u{85}",
-    "ü",
-    "[camera]\n",
-    "[[screen]]\n",
-    "[[surface]]\n",
-    "[format]\n",
-    "\nkind = \"plane\"\n",
-];
-
-fn edge() -> Text {
+/// A value at an end of some range, or beyond.
+pub fn edge() -> Text {
     let exponent = (prop::bool::ANY, -12.0..12.0_f64)
         .prop_map(|(minus, e)| if minus { -10.0_f64.powf(e) } else { 10.0_f64.powf(e) });
     prop_oneof![
@@ -117,7 +84,8 @@ fn or_wild(sound: impl Strategy<Value = String> + 'static) -> Text {
     prop_oneof![200 => sound, 1 => edge()].boxed()
 }
 
-fn number(range: std::ops::Range<f64>) -> Text {
+/// A number, whole at times.
+pub fn number(range: std::ops::Range<f64>) -> Text {
     let ends = (range.start, range.end);
     or_wild((range, prop::bool::weighted(0.3)).prop_map(move |(number, whole)| {
         let rounded = number.round();
@@ -142,7 +110,8 @@ fn list(elements: Vec<Text>) -> Text {
     or_wild(elements.prop_map(|elements| format!("[{}]", elements.join(", "))))
 }
 
-fn numbers<const N: usize>(range: std::ops::Range<f64>) -> Text {
+/// An array of numbers.
+pub fn numbers<const N: usize>(range: std::ops::Range<f64>) -> Text {
     list((0..N).map(|_| number(range.clone())).collect())
 }
 
@@ -372,132 +341,4 @@ pub fn options() -> BoxedStrategy<String> {
     prop_oneof![5 => fit, 1 => (select(keys), edge())]
         .prop_map(|(key, value)| format!("{key}={value}"))
         .boxed()
-}
-
-/// One change of a text.
-#[derive(Clone, Debug)]
-pub enum Damage {
-    /// So many characters become a text.
-    Characters(Index, usize, String),
-    /// The value of a line becomes another.
-    Value(Index, String),
-    /// A number becomes another.
-    Number(Index, String),
-    /// A number is multiplied; a whole one stays whole.
-    Scale(Index, f64),
-    /// A line goes.
-    Drop(Index),
-    /// A line is repeated at another place.
-    Repeat(Index, Index),
-    /// The text ends.
-    Cut(Index),
-}
-
-/// Damage to any text.
-pub fn damages() -> BoxedStrategy<Damage> {
-    let any_index = any::<Index>;
-    let token = prop_oneof![3 => select(TOKENS.to_vec()).prop_map(str::to_owned), 1 => edge(), 1 => "\\PC{0,3}"];
-    let sound = prop_oneof![number(-20.0..400.0), number(0.0..4.0)];
-    let factor = prop_oneof![
-        Just(-1.0),
-        Just(0.5),
-        0.8..1.25,
-        0.1..10.0,
-        (-6.0..6.0_f64).prop_map(|e| 10.0_f64.powf(e))
-    ];
-    let damage = prop_oneof![
-        2 => (any_index(), 0..8_usize, token).prop_map(|(at, n, text)| Damage::Characters(at, n, text)),
-        2 => (any_index(), edge()).prop_map(|(at, text)| Damage::Value(at, text)),
-        1 => (any_index(), numbers::<3>(-20.0..400.0)).prop_map(|(at, text)| Damage::Value(at, text)),
-        20 => (any_index(), factor).prop_map(|(at, factor)| Damage::Scale(at, factor)),
-        2 => (any_index(), sound).prop_map(|(at, text)| Damage::Number(at, text)),
-        2 => (any_index(), edge()).prop_map(|(at, text)| Damage::Number(at, text)),
-        2 => any_index().prop_map(Damage::Drop),
-        1 => (any_index(), any_index()).prop_map(|(from, to)| Damage::Repeat(from, to)),
-        1 => any_index().prop_map(Damage::Cut),
-    ];
-    damage.boxed()
-}
-
-impl Damage {
-    /// The text after the damage.
-    pub fn to(&self, text: &str) -> String {
-        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-        if lines.is_empty() {
-            return String::new();
-        }
-        match self {
-            Self::Characters(at, count, insert) => {
-                let chars: Vec<char> = text.chars().collect();
-                let at = at.index(chars.len());
-                let end = (at + count).min(chars.len());
-                return chars[..at]
-                    .iter()
-                    .copied()
-                    .chain(insert.chars())
-                    .chain(chars[end..].iter().copied())
-                    .collect();
-            }
-            Self::Value(at, value) => {
-                let values: Vec<usize> = (0..lines.len())
-                    .filter(|&line| lines[line].contains(" = ") && !lines[line].starts_with('#'))
-                    .collect();
-                if !values.is_empty() {
-                    let line = &mut lines[values[at.index(values.len())]];
-                    let key = line.split(" = ").next().unwrap_or_default();
-                    *line = format!("{key} = {value}");
-                }
-            }
-            Self::Number(..) | Self::Scale(..) => return self.to_a_number(text),
-            Self::Drop(at) => drop(lines.remove(at.index(lines.len()))),
-            Self::Repeat(from, to) => {
-                let line = lines[from.index(lines.len())].clone();
-                lines.insert(to.index(lines.len()), line);
-            }
-            Self::Cut(at) => {
-                let chars: Vec<char> = text.chars().collect();
-                return chars[..at.index(chars.len())].iter().collect();
-            }
-        }
-        lines.join("\n")
-    }
-
-    fn to_a_number(&self, text: &str) -> String {
-        let numbers = numbers_in(text);
-        let (Self::Number(at, _) | Self::Scale(at, _)) = self else { return text.to_owned() };
-        if numbers.is_empty() {
-            return text.to_owned();
-        }
-        let place = numbers[at.index(numbers.len())].clone();
-        let old = &text[place.clone()];
-        let new = match self {
-            Self::Number(_, new) => new.clone(),
-            Self::Scale(_, factor) => match (old.parse::<i64>(), old.parse::<f64>()) {
-                (Ok(whole), _) => format!("{}", (whole as f64 * factor) as i64),
-                (_, Ok(number)) => format!("{:?}", number * factor),
-                _ => old.to_owned(),
-            },
-            _ => old.to_owned(),
-        };
-        format!("{}{new}{}", &text[..place.start], &text[place.end..])
-    }
-}
-
-/// Where the numbers of a text are, but for those in comments and names.
-fn numbers_in(text: &str) -> Vec<std::ops::Range<usize>> {
-    let mut numbers: Vec<std::ops::Range<usize>> = Vec::new();
-    let (mut before, mut comment) = ('\n', false);
-    for (at, c) in text.char_indices() {
-        comment = c == '#' || (comment && c != '\n');
-        let inside = numbers.last().is_some_and(|number| number.end == at);
-        if !comment && inside && (c.is_ascii_digit() || "_.e-".contains(c)) {
-            if let Some(number) = numbers.last_mut() {
-                number.end = at + 1;
-            }
-        } else if !comment && (c.is_ascii_digit() || c == '-') && " [".contains(before) {
-            numbers.push(at..at + 1);
-        }
-        before = c;
-    }
-    numbers
 }

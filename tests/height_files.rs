@@ -2,6 +2,8 @@
 
 #[path = "height_files/ascii.rs"]
 mod ascii;
+#[path = "height_files/forged.rs"]
+mod forged;
 #[path = "height_files/fuzz.rs"]
 mod fuzz;
 #[path = "height_files/georeference.rs"]

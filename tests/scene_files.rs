@@ -3,18 +3,28 @@
 use std::path::Path;
 
 use glam::{DVec2, DVec3};
+use peak_alloc::PeakAlloc;
 use terraline::scene::file::{Document, parse};
 use terraline::scene::{
     Angles, Attitude, Deformation, Extent, FormatRequest, Halvings, KernelShape, NoData, Outside,
     Overflow, Rounding, Scene, SceneError, StepperMode, Surface, Terrain, WordSize, builtin, load,
 };
 
+mod support;
+
+#[path = "scene_files/fuzz.rs"]
+mod fuzz;
 #[path = "scene_files/hostile.rs"]
 mod hostile;
 #[path = "scene_files/messages.rs"]
 mod messages;
 #[path = "scene_files/options.rs"]
 mod options;
+#[path = "scene_files/wild.rs"]
+mod wild;
+
+#[global_allocator]
+static PEAK: PeakAlloc = PeakAlloc;
 
 /// Every key of the format, each with a value of its own.
 const EVERY_KEY: &str = r#"

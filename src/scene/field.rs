@@ -135,7 +135,7 @@ impl<'a> Fields<'a> {
             None => format!("known keys here: {all}"),
         };
         let reason = format!("unknown key `{}`", shorten(key));
-        Err(self.context.error(entry.origin, &shorten(&path), reason, remedy))
+        Err(self.context.error(entry.origin, &path, reason, remedy))
     }
 }
 
@@ -285,6 +285,8 @@ pub(super) fn is_length(value: f64) -> bool {
     (SMALLEST..=FARTHEST).contains(&value)
 }
 
+/// The path of a key, safe to show on one line.
 fn join(path: &str, key: &str) -> String {
-    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+    let key = shorten(key);
+    if path.is_empty() { key } else { format!("{path}.{key}") }
 }

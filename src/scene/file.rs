@@ -11,7 +11,7 @@ use toml::de::DeTable;
 use super::array::is_unit;
 use super::error::{Place, SceneError};
 use super::field::{Context, Field, Fields, is_length};
-use super::height_map::{file_reason, one_line, read_limited};
+use super::height_map::{file_reason, one_line, read_limited, shown_path};
 use super::tree::Node;
 use super::{
     Colors, Deformation, FormatRequest, Halvings, Kernel, KernelShape, Light, Machine, Overflow,
@@ -39,7 +39,7 @@ pub struct Document<'a> {
 /// # Errors
 /// If the file cannot be read or [`parse`] fails.
 pub fn read(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
-    let file = path.display().to_string();
+    let file = shown_path(path);
     let unreadable = |reason: String, remedy: &str| SceneError::Unreadable {
         file: file.clone(),
         reason,

@@ -167,6 +167,13 @@ fn too_large(name: &str, reason: &str) -> MapError {
     )
 }
 
+/// A path on one line.
+pub(super) fn shown_path(path: &Path) -> String {
+    let path = path.display().to_string();
+    let escape = |c: char| if c.is_control() { c.escape_debug().to_string() } else { c.into() };
+    if path.contains(char::is_control) { path.chars().map(escape).collect() } else { path }
+}
+
 /// A message of a library, with its line breaks taken out.
 pub(super) fn one_line(message: &str) -> String {
     message.split_whitespace().collect::<Vec<_>>().join(" ")

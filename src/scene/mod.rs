@@ -39,6 +39,7 @@ pub use crate::word::{Overflow, Rounding};
 pub use builtin::load;
 pub use error::SceneError;
 pub use height_map::{Encoding, HeightFile, HeightMap};
+pub(crate) use tree::shorten;
 
 /// A complete scene: camera, screens, one surface, and the machine that draws it.
 #[derive(Clone, Debug)]

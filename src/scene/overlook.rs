@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::file::{Document, parse_with};
+use super::height_map::shown_path;
 use super::height_map::source::{self, is_height_file};
 use super::set;
 use super::surface::ReadMap;
@@ -51,7 +52,7 @@ pub fn read(
 ) -> Result<Overlook, SceneError> {
     let encoding = encoding(sets);
     let unreadable = |file: &Path, reason: String, remedy: String| SceneError::Unreadable {
-        file: file.display().to_string(),
+        file: shown_path(file),
         reason,
         remedy,
     };
@@ -84,7 +85,7 @@ pub fn read(
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let document = Document {
         name: stem.as_deref().unwrap_or("map"),
-        file: &format!("the scene chosen for {}", path.display()),
+        file: &format!("the scene chosen for {}", shown_path(path)),
         folder: path.parent().unwrap_or(Path::new("")),
         text: &text,
     };
@@ -106,8 +107,8 @@ impl Overlook {
     /// If no path leads from there to the map, or an option cannot be written.
     pub fn file(&self, target: &Path) -> Result<String, SceneError> {
         let map = relative(&self.path, target).ok_or_else(|| SceneError::Unreadable {
-            file: target.display().to_string(),
-            reason: format!("no path of UTF-8 text leads from here to {}", self.path.display()),
+            file: shown_path(target),
+            reason: format!("no path of UTF-8 text leads from here to {}", shown_path(&self.path)),
             remedy: "write the scene into the folder of the height file".to_owned(),
         })?;
         text::with_sets(&text::write(&self.view, &map, self.encoding), &self.sets)

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use glam::DVec2;
 
 use super::error::SceneError;
-use super::field::{FARTHEST, Field, Fields, is_length};
+use super::field::{FARTHEST, Field, Fields, SMALLEST, is_length};
 use super::file::{Form, one_form};
 use super::{Angles, Extent, Screen, camera, keys};
 
@@ -80,7 +80,9 @@ fn extent(table: &Fields<'_>) -> Result<Extent, SceneError> {
     let remedy = "keep either fov, or distance and pixel";
     if one_form(table, &["fov"], &["distance", "pixel"], remedy)? != Form::Second {
         let degrees = table.read("fov", 60.0, |fov| {
-            fov.number("an angle above 0 and at most 175 degrees", |fov| fov > 0.0 && fov <= 175.0)
+            fov.number("an angle above 0 (from 1e-9) and at most 175 degrees", |fov| {
+                (SMALLEST..=175.0).contains(&fov)
+            })
         })?;
         return Ok(Extent::FieldOfView(degrees.to_radians()));
     }

@@ -22,13 +22,13 @@ const DEEPEST: usize = 8;
 /// Keys whose value is an array of tables.
 const TABLE_ARRAYS: [&str; 2] = ["screen", "surface"];
 
-/// Applies the options to a scene and returns their paths, for messages.
+/// Applies the options to a scene and returns their paths, as messages show them.
 pub(super) fn apply(root: &mut Node, options: &[String]) -> Result<Vec<String>, SceneError> {
     let mut paths = Vec::with_capacity(options.len());
     for (index, option) in options.iter().enumerate() {
         let (path, value) = split(option)?;
         insert(root, path, value_of(value, index), index)?;
-        paths.push(path.to_owned());
+        paths.push(shorten(path));
     }
     Ok(paths)
 }

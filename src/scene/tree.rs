@@ -121,7 +121,7 @@ pub(super) fn shown(value: f64) -> String {
 }
 
 /// The head of a text, safe to show on one line.
-pub(super) fn shorten(text: &str) -> String {
+pub(crate) fn shorten(text: &str) -> String {
     const LONGEST: usize = 60;
     let head: String = text.chars().take(LONGEST).flat_map(char::escape_debug).collect();
     if text.chars().nth(LONGEST).is_some() { head + "..." } else { head }

@@ -73,7 +73,7 @@ pub fn toml(scene: &Scene, map: &str) -> String {
         for (index, (name, request)) in scene.formats.iter().enumerate() {
             // Of several requests for one register the last one counts, as in the program.
             if !scene.formats[index + 1..].iter().any(|(later, _)| later == name) {
-                out.key(&text(name), format(request));
+                out.key(&toml_edit::Key::new(name).to_string(), format(request));
             }
         }
     }

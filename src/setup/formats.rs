@@ -1,7 +1,7 @@
 //! Register formats of the sweep world: the stock formats, overridden by `[format]` and `--format`.
 
 use crate::plan::{Ground, Plan, PlanError, WordClass};
-use crate::scene::{FormatRequest, Scene};
+use crate::scene::{FormatRequest, Scene, shorten};
 use crate::word::sweep::{Sweep, SweepFormat};
 use crate::word::{Class, Overflow, Register, Rounding};
 
@@ -76,7 +76,7 @@ pub fn sweep_of(
     let mut formats: Vec<SweepFormat> = Register::ALL.iter().map(|&r| stock(r)).collect();
     for (name, request) in requests {
         let registers = named(name).ok_or_else(|| PlanError::UnknownRegister {
-            name: name.clone(),
+            name: shorten(name),
             nearest: nearest(name).into(),
         })?;
         for register in registers {

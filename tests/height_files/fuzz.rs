@@ -1,6 +1,7 @@
 //! Damaged and random files of every format: a map or a message, never a panic.
 //!
-//! `TERRALINE_FUZZ_CASES` sets the number of cases of each test.
+//! `TERRALINE_FUZZ_CASES` sets the number of cases of each test, `PROPTEST_RNG_SEED` a seed:
+//! without it, every run takes a new one.
 
 use std::io::{Cursor, Write as _};
 use std::sync::LazyLock;
@@ -14,7 +15,7 @@ use zip::write::SimpleFileOptions;
 
 use super::tiff_file::{Form, Kind, Layout, SHORT, TiffFile};
 
-fn cases() -> ProptestConfig {
+pub fn cases() -> ProptestConfig {
     let asked = std::env::var("TERRALINE_FUZZ_CASES").ok().and_then(|cases| cases.parse().ok());
     ProptestConfig::with_cases(asked.unwrap_or(256))
 }
@@ -58,18 +59,28 @@ static SEEDS: LazyLock<Vec<(&'static str, Vec<u8>)>> = LazyLock::new(|| {
 });
 
 /// Reads with every encoding; what is refused has a message of one line.
-fn try_all(bytes: &[u8], name: &str) {
+pub fn try_all(bytes: &[u8], name: &str) {
     for (_, encoding) in Encoding::NAMES {
         match source::decode(bytes, name, encoding) {
             Ok(file) => {
                 let (columns, rows) = (file.map.columns(), file.map.rows());
                 assert_eq!(file.map.samples().len(), columns * rows);
-                let _ = file.georeference.cell_m(columns, rows);
+                assert!(file.map.samples().iter().all(|sample| !sample.is_infinite()));
+                let (low, high) = file.map.range();
+                assert!(low <= high, "{low} to {high}");
+                if let Some(cell) = file.georeference.cell_m(columns, rows) {
+                    assert!(cell.is_finite() && cell.min_element() >= 0.0, "{cell}");
+                }
+                for note in &file.notes {
+                    assert_eq!(note.lines().count(), 1, "{note}");
+                    assert!(note.len() < 600, "{note}");
+                }
             }
             Err(error) => {
                 let message = error.to_string();
                 assert_eq!(message.lines().count(), 1, "{message}");
                 assert!(message.len() < 600, "{message}");
+                assert!(!message.contains(char::is_control), "{message:?}");
             }
         }
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{
     Georeference, HeightMap, MAX_NODES, MapError, ascii, file_reason, geotiff, hgt, png,
-    read_limited,
+    read_limited, shown_path,
 };
 
 /// The largest file worth reading: text needs some twenty bytes a node, `float64` eight.
@@ -189,7 +189,7 @@ pub fn is_height_file(path: &Path) -> bool {
 /// than [`super::MAX_SIDE`] in one direction, than [`MAX_NODES`] in all or than it can hold, or
 /// has no data at all. There is no partial map.
 pub fn read(path: &Path, encoding: Encoding) -> Result<HeightFile, MapError> {
-    let name = path.display().to_string();
+    let name = shown_path(path);
     let bytes = read_limited(path, MAX_FILE_BYTES).map_err(|error| {
         let remedy = match error.kind() {
             std::io::ErrorKind::NotFound => {

@@ -1,0 +1,258 @@
+//! Random and damaged scene files: a frame that all engines can draw, or a message of one line;
+//! never a panic, a wait or much memory.
+//!
+//! `TERRALINE_FUZZ_CASES` sets the number of cases of each test, `PROPTEST_RNG_SEED` a seed: without
+//! it, every run takes a new one.
+
+use std::sync::LazyLock;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::mpsc::channel;
+use std::thread;
+use std::time::Duration;
+
+use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
+use tempfile::TempDir;
+use terraline::engine::{FixedWorld, draw_oracle};
+use terraline::frame::Frame;
+use terraline::plan::Plan;
+use terraline::scene::file::{Document, parse};
+use terraline::scene::{Scene, Surface, builtin, write};
+use terraline::study::cost::Measure;
+use terraline::study::error::{self, Sample};
+use terraline::study::explain::explain;
+
+use super::support::{both, difference, draw_in_real, drawn};
+use super::wild::{damages, options, scenes};
+use super::{EVERY_KEY, PEAK};
+
+/// No case takes longer.
+const LONGEST: Duration = Duration::from_secs(5);
+
+/// No case takes more memory, other tests that run meanwhile included.
+const MOST_BYTES: usize = 256 << 20;
+
+/// Maps of more nodes are read but not drawn.
+const MOST_NODES: usize = 1 << 20;
+
+/// Maps that the scenes name.
+static FOLDER: LazyLock<TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().expect("a folder");
+    let grid = |name: &str, columns: usize, rows: usize, sample: &dyn Fn(usize, usize) -> i32| {
+        let mut text = format!(
+            "ncols {columns}\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -1\n"
+        );
+        for j in 0..rows {
+            let row: Vec<String> = (0..columns).map(|i| sample(i, j).to_string()).collect();
+            text += &format!("{}\n", row.join(" "));
+        }
+        std::fs::write(folder.path().join(name), text).expect("a file");
+    };
+    let hills = |i: usize, j: usize| 236 + ((i * i + 7 * j * (i + 3)) % 97) as i32;
+    grid("hills.asc", 24, 19, &hills);
+    grid("holes.asc", 17, 33, &|i, j| if (i / 3 + j / 2) % 5 == 0 { -1 } else { hills(i, j) });
+    grid("flat.asc", 9, 9, &|_, _| 300);
+    grid("row.asc", 12, 1, &hills);
+    grid("one.asc", 1, 1, &hills);
+    let path = |name: &str| folder.path().join(name);
+    image::ImageBuffer::from_fn(31, 20, |i, j| image::Luma([(i * j * 4001 % 65536) as u16]))
+        .save(path("cliffs.png"))
+        .expect("a file");
+    image::ImageBuffer::from_fn(20, 20, |i, j| image::Rgb([128, i as u8 * 9, j as u8]))
+        .save(path("packed.png"))
+        .expect("a file");
+    folder
+});
+
+/// How far the cases of a test came.
+#[derive(Debug, Default)]
+struct Seen {
+    cases: AtomicUsize,
+    read: AtomicUsize,
+    planned: AtomicUsize,
+    drawn: AtomicUsize,
+}
+
+/// What was refused, which is well, or what went wrong.
+enum Stop {
+    Refused(String),
+    Wrong(String),
+}
+
+fn refused(error: impl std::fmt::Display) -> Stop {
+    Stop::Refused(error.to_string())
+}
+
+/// Runs a test of many cases; `share` of them must be drawn.
+fn fuzz<S: Strategy>(scenes: S, share: f64, text: impl Fn(S::Value) -> (String, Vec<String>))
+where
+    S::Value: Clone,
+{
+    let asked = std::env::var("TERRALINE_FUZZ_CASES").ok().and_then(|cases| cases.parse().ok());
+    let config = ProptestConfig {
+        cases: asked.unwrap_or(256),
+        source_file: Some(file!()),
+        // Milliseconds; a case that waits takes seconds.
+        max_shrink_time: 120_000,
+        ..ProptestConfig::default()
+    };
+    let seen = Seen::default();
+    let result = TestRunner::new(config).run(&scenes, |values| {
+        let (text, sets) = text(values);
+        try_one(&text, &sets, &seen)
+            .map_err(|wrong| TestCaseError::fail(format!("{wrong}\nsets: {sets:?}\n{text}")))
+    });
+    println!("{seen:?}");
+    result.unwrap_or_else(|error| panic!("{error}"));
+    let (cases, drawn) = (seen.cases.load(Relaxed), seen.drawn.load(Relaxed));
+    assert!(drawn as f64 > share * cases as f64, "too few are drawn: {seen:?}");
+}
+
+/// One case in a thread of its own, so that one that waits for ever is found.
+fn try_one(text: &str, sets: &[String], seen: &Seen) -> Result<(), String> {
+    seen.cases.fetch_add(1, Relaxed);
+    let (sender, receiver) = channel();
+    let (owned, options) = (text.to_owned(), sets.to_vec());
+    PEAK.reset_peak_usage();
+    let case = thread::spawn(move || {
+        let stages = AtomicUsize::new(0);
+        let result = draw(&owned, &options, &stages);
+        // Nobody listens after the longest wait.
+        let _ = sender.send((result, stages.into_inner()));
+    });
+    let (result, stages) = match receiver.recv_timeout(LONGEST) {
+        Ok(done) => done,
+        Err(_) if case.is_finished() => return Err("panicked".into()),
+        Err(_) => return Err(format!("takes longer than {LONGEST:?}")),
+    };
+    for (stage, count) in [&seen.read, &seen.planned, &seen.drawn].into_iter().enumerate() {
+        count.fetch_add(usize::from(stages > stage), Relaxed);
+    }
+    if PEAK.peak_usage() > MOST_BYTES {
+        return Err(format!("takes {} bytes", PEAK.peak_usage()));
+    }
+    match result {
+        Ok(()) => Ok(()),
+        Err(Stop::Wrong(what)) => Err(what),
+        Err(Stop::Refused(message)) if message.lines().count() != 1 => {
+            Err(format!("a message of several lines: {message}"))
+        }
+        Err(Stop::Refused(message))
+            if message.chars().any(char::is_control) || message.len() > 700 =>
+        {
+            Err(format!("an unfit message: {message:?}"))
+        }
+        Err(Stop::Refused(message)) => {
+            if std::env::var_os("REASONS").is_some() {
+                println!("REASON {message}");
+            }
+            Ok(())
+        }
+    }
+}
+
+/// Reads, writes, plans and draws a scene; `stages` counts how far it comes.
+fn draw(text: &str, sets: &[String], stages: &AtomicUsize) -> Result<(), Stop> {
+    let read = |text: &str, sets: &[String]| {
+        parse(&Document { name: "my", file: "my.toml", folder: FOLDER.path(), text }, sets)
+    };
+    let mut scene = read(text, sets).map_err(refused)?;
+    stages.store(1, Relaxed);
+    let written = written(&scene);
+    match read(&written, &[]) {
+        Ok(again) if self::written(&again) == written => {}
+        Ok(_) => return Err(Stop::Wrong(format!("written otherwise when read again: {written}"))),
+        Err(error) => return Err(Stop::Wrong(format!("does not read back: {error}\n{written}"))),
+    }
+    if let Surface::Terrain(terrain) = &scene.surface
+        && terrain.map.samples().len() > MOST_NODES
+    {
+        return Ok(());
+    }
+    for screen in &mut scene.screens {
+        *screen = screen.resized(16, 12);
+    }
+    let last = scene.screens.last().map(|screen| screen.name.clone());
+    for (screen, full) in [(None, false), (last.as_deref(), true)] {
+        let plan = Plan::new(&scene, screen, full).map_err(refused)?;
+        let world = FixedWorld::of(&scene, &plan).map_err(refused)?;
+        stages.fetch_max(2, Relaxed);
+        // Registers that saturate are the processor's alone.
+        let frame = if world.wraps() {
+            let (frame, fast) = both(&scene, &plan).map_err(refused)?;
+            if let Some(difference) = difference(&frame, &fast) {
+                return Err(Stop::Wrong(format!("processor and fast, full {full}: {difference}")));
+            }
+            frame
+        } else {
+            drawn(&scene, &plan).map_err(refused)?
+        };
+        study(&scene, &plan, &world, &frame)?;
+        stages.store(3, Relaxed);
+    }
+    Ok(())
+}
+
+/// What the commands do with a scene that can be drawn: that must work.
+fn study(scene: &Scene, plan: &Plan, world: &FixedWorld, frame: &Frame) -> Result<(), Stop> {
+    let wrong = |error: &dyn std::fmt::Display| Stop::Wrong(format!("drawn, but {error}"));
+    let pixels = frame.hit.len();
+    let real = draw_in_real(scene, plan).map_err(|error| wrong(&error))?;
+    let oracle = draw_oracle(scene, plan);
+    if (real.hit.len(), oracle.hit.len()) != (pixels, pixels) {
+        return Err(Stop::Wrong("frames of several sizes".into()));
+    }
+    let sample = Sample::strips(plan, 3, scene.seed);
+    let errors = error::pixels(scene, plan, world, &sample).map_err(|error| wrong(&error))?;
+    let explanation = explain(scene, plan, world, 7, 5).map_err(|error| wrong(&error))?;
+    let measure = Measure { scene, plan, cycles: &sample, operations: &sample };
+    let cost = world.run(measure).map_err(|error| wrong(&error))?;
+    if errors.len() != sample.len() || explanation.rows.is_empty() || cost.cycles == 0 {
+        return Err(Stop::Wrong("studies of nothing".into()));
+    }
+    Ok(())
+}
+
+fn written(scene: &Scene) -> String {
+    match &scene.surface {
+        Surface::Terrain(terrain) => write::toml(scene, &terrain.source),
+        Surface::Plane(_) => write::toml(scene, ""),
+    }
+}
+
+#[test]
+fn random_scenes() {
+    fuzz(scenes(), 0.2, |text| (text, Vec::new()));
+}
+
+#[test]
+fn damaged_scenes() {
+    let damage = (scenes(), prop::collection::vec(damages(), 1..5));
+    fuzz(damage, 0.1, |(text, damages)| {
+        (damages.iter().fold(text, |text, damage| damage.to(&text)), Vec::new())
+    });
+}
+
+#[test]
+fn scenes_with_options() {
+    let sets = (scenes(), prop::collection::vec(options(), 1..4));
+    fuzz(sets, 0.05, |text_and_sets| text_and_sets);
+}
+
+/// Their map is larger, and takes longer.
+#[test]
+fn damaged_built_in_scenes() {
+    let mut texts: Vec<&str> = builtin::SCENES.iter().map(|scene| scene.toml).collect();
+    texts.push(EVERY_KEY);
+    let damage = (
+        prop::sample::select(texts),
+        prop::collection::vec(damages(), 1..4),
+        prop::collection::vec(options(), 0..2),
+        prop::bool::ANY,
+    );
+    fuzz(damage, 0.05, |(text, damages, sets, small)| {
+        let text = damages.iter().fold(text.to_owned(), |text, damage| damage.to(&text));
+        // Most of the time is spent on the map's memories.
+        (if small { text.replace("jacksboro\"", "jacksboro@61\"") } else { text }, sets)
+    });
+}

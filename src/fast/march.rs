@@ -186,7 +186,7 @@ fn start<W: Packed, S: Simd>(
         [W::Words::load(simd, x), splat(stepper.top.int()), W::Words::load(simd, z)]
     };
 
-    let none = dx - dx;
+    let none = splat(W::Int::default());
     let (west, east) = (!none.less(dx), !dx.less(none));
     let (north, south) = (!none.less(dz), !dz.less(none));
     let (columns, rows) = stepper.extent.unwrap_or((0, 0));
@@ -231,7 +231,7 @@ fn start<W: Packed, S: Simd>(
 #[inline(always)]
 fn longest<W: Packed, S: Simd>(steps: W::Words<S>, of: mask32x16<S>) -> u32 {
     let lengths = steps.coarse_magnitude(0);
-    let lengths = of.select(lengths, lengths - lengths).to_array();
+    let lengths = of.select(lengths, u32x16::simd_from(lengths.token(), 0)).to_array();
     lengths.into_iter().fold(0, u32::max)
 }
 
@@ -272,7 +272,7 @@ fn trial<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
     let passes = walks & clear;
     let stays = walks & !clear;
     rays.more = more;
-    rays.advance(passes.select(more + 1, more - more));
+    rays.advance(passes.select(more + 1, u32x16::simd_from(land.simd, 0)));
     // Beside the map, a ray that falls under its base is over.
     let base = W::Words::splat(land.simd, stepper.base.int());
     let sinks = passes & nothing & rays.falls & end.less(base);

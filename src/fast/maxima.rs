@@ -28,7 +28,7 @@ impl Maxima {
         let held = within(i, block(last_i)) & within(j, block(last_j));
         let first_row = 2 * self.rows - block(2 * self.rows) + places;
         let address = (first_row + j) * self.stride + i;
-        (held.select(address, address - address).bitcast(), held)
+        (held.select(address, i32x16::simd_from(simd, 0)).bitcast(), held)
     }
 
     /// The bounds at addresses.

@@ -5,10 +5,6 @@
 //! through `march` (blocks of the map), `solve` (single cells) and `refine` (the last step), then
 //! sixteen pixels at a time through `shade`. `words` holds the vectors, `heights` the surface.
 #![deny(clippy::float_arithmetic)]
-#![expect(
-    clippy::needless_range_loop,
-    reason = "loops over lanes read and write several arrays at one index, and vectorise so"
-)]
 
 pub mod enter;
 mod heights;

@@ -45,7 +45,7 @@ const LEVELS: u32 = 28;
 
 /// Row of a level's first block.
 fn first_row(rows: usize, level: u32) -> usize {
-    2 * rows - (2 * rows >> level) + level as usize
+    2 * rows - ((2 * rows) >> level) + level as usize
 }
 
 impl Maxima {

@@ -3,37 +3,38 @@
 //! In wrapping fixed point `start + k·step` is k additions (equation 7 of docs/mathematics.md),
 //! so lines are independent of each other and a line's columns fill in parallel.
 
-use fearless_simd::Simd;
-
-use super::march;
-use crate::setup::TerrainUnits;
+use super::{on_vectors, singly};
+use crate::setup::Setup;
 use crate::unit::Line;
 use crate::unit::projector::{LineStart, Linear, Projector};
 use crate::word::stock::{Narrow, Wide};
 use crate::word::sweep::Sweep;
-use crate::word::{Enter, Interpolating, Shading, World};
+use crate::word::{Complete, Enter, World};
 
-/// A world whose accumulators may be entered anywhere, and how the fast engine draws terrain in it.
-pub trait Enterable: Interpolating + Shading + World<View: Enter> {
-    /// Runs stepper, interpolator and shader on neighbouring lines, ray by ray where the world has
-    /// no quicker way.
-    #[inline(always)]
-    fn draw<S: Simd>(_: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
-        march::draw_singly(units, lines);
-    }
+/// A world whose accumulators may be entered anywhere.
+///
+/// Its lines are drawn by a method without type parameters, so that the vectorised code of each
+/// world is compiled once, in this library.
+pub trait Enterable: Complete + World<View: Enter> {
+    /// Draws a few neighbouring lines from `first` on, on wires that hold all columns.
+    fn draw_group(setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]);
 }
 
-impl Enterable for Sweep {}
 impl Enterable for Narrow {
-    #[inline(always)]
-    fn draw<S: Simd>(simd: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
-        march::draw(simd, units, lines);
+    fn draw_group(setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
+        on_vectors(setup, first, lines);
     }
 }
+
 impl Enterable for Wide {
-    #[inline(always)]
-    fn draw<S: Simd>(simd: S, units: &TerrainUnits<Self>, lines: &mut [Line<Self>]) {
-        march::draw(simd, units, lines);
+    fn draw_group(setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
+        on_vectors(setup, first, lines);
+    }
+}
+
+impl Enterable for Sweep {
+    fn draw_group(setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
+        singly(setup, first, lines);
     }
 }
 

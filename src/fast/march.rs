@@ -11,16 +11,16 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
-use super::maxima::{Maxima, NOTHING};
 use super::words::{LANES, Packed, Words};
 use super::{refine, shade, solve};
 use crate::frame::Hit;
 use crate::setup::TerrainUnits;
+use crate::setup::maxima::{Maxima, NOTHING};
 use crate::unit::Line;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::line::{Entry, Work};
 use crate::unit::stepper::{Place, Stepper};
-use crate::word::{Interpolating, Lane, Shading, World};
+use crate::word::{Lane, World};
 
 /// What a walk needs to know of the map.
 pub struct Land<'a, W: World, S> {
@@ -85,20 +85,17 @@ pub struct Rays<W: Packed, S: Simd> {
 #[inline(always)]
 pub fn draw<W: Packed, S: Simd>(simd: S, units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
     let (stepper, surface) = (&units.stepper, &units.interpolator);
-    let Some(maxima) = units.maxima.as_deref() else { return draw_singly(units, lines) };
+    let Some(maxima) = units.maxima.as_deref() else {
+        for line in lines {
+            stepper.run(line, surface);
+            units.shade(line);
+        }
+        return;
+    };
     let land = Land { simd, stepper, surface, maxima };
     run(&land, lines);
     for line in lines {
         shade::run(&land, &units.shader, line);
-    }
-}
-
-/// Runs stepper, interpolator and shader ray by ray.
-#[inline(always)]
-pub fn draw_singly<W: Interpolating + Shading>(units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
-    for line in lines {
-        units.stepper.run(line, &units.interpolator);
-        units.shade(line);
     }
 }
 
@@ -177,8 +174,7 @@ fn start<W: Packed, S: Simd>(
 
     // The step, as `Stepper::step`: equation 20.
     let [x, y, z] = view;
-    let (x, y, z) =
-        (W::Words::load(simd, x), W::Words::load(simd, y), W::Words::load(simd, z));
+    let (x, y, z) = (W::Words::load(simd, x), W::Words::load(simd, y), W::Words::load(simd, z));
     // The leading one is counted from the ground's point, so the points' difference cancels out.
     let places = W::Words::leading_one([x, y, z]) + (1 + stepper.fineness as i32);
     let (dx, dy, dz) = (x.scaled_down(places), y.scaled_down(places), z.scaled_down(places));
@@ -190,7 +186,7 @@ fn start<W: Packed, S: Simd>(
         [W::Words::load(simd, x), splat(stepper.top.int()), W::Words::load(simd, z)]
     };
 
-    let none = dx - dx;
+    let none = splat(W::Int::default());
     let (west, east) = (!none.less(dx), !dx.less(none));
     let (north, south) = (!none.less(dz), !dz.less(none));
     let (columns, rows) = stepper.extent.unwrap_or((0, 0));
@@ -235,7 +231,7 @@ fn start<W: Packed, S: Simd>(
 #[inline(always)]
 fn longest<W: Packed, S: Simd>(steps: W::Words<S>, of: mask32x16<S>) -> u32 {
     let lengths = steps.coarse_magnitude(0);
-    let lengths = of.select(lengths, lengths - lengths).to_array();
+    let lengths = of.select(lengths, u32x16::simd_from(lengths.token(), 0)).to_array();
     lengths.into_iter().fold(0, u32::max)
 }
 
@@ -276,7 +272,7 @@ fn trial<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
     let passes = walks & clear;
     let stays = walks & !clear;
     rays.more = more;
-    rays.advance(passes.select(more + 1, more - more));
+    rays.advance(passes.select(more + 1, u32x16::simd_from(land.simd, 0)));
     // Beside the map, a ray that falls under its base is over.
     let base = W::Words::splat(land.simd, stepper.base.int());
     let sinks = passes & nothing & rays.falls & end.less(base);

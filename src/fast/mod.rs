@@ -1,21 +1,21 @@
-//! The fast engine: the processor's frame, bit for bit, by threads, direct entry and loops that
-//! vectorise.
+//! The fast engine: the processor's frame, bit for bit, by threads, direct entry and packets of
+//! rays on vectors.
+//!
+//! A group of lines goes through projector and divider (`enter`), then packets of sixteen rays
+//! through `march` (blocks of the map), `solve` (single cells) and `refine` (the last step), then
+//! sixteen pixels at a time through `shade`. `words` holds the vectors, `heights` the surface.
 #![deny(clippy::float_arithmetic)]
-#![expect(
-    clippy::needless_range_loop,
-    reason = "loops over lanes read and write several arrays at one index, and vectorise so"
-)]
 
 pub mod enter;
-pub mod heights;
-pub mod march;
-pub mod maxima;
-pub mod refine;
-pub mod shade;
-pub mod solve;
-pub mod words;
+mod heights;
+mod march;
+mod maxima;
+mod refine;
+mod shade;
+mod solve;
+mod words;
 
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Level, Simd as _, dispatch};
 use rayon::prelude::*;
 
 use crate::frame::Frame;
@@ -26,6 +26,7 @@ use crate::unit::Line;
 use crate::unit::divider::Method;
 use crate::word::Complete;
 use enter::Enterable;
+use words::Packed;
 
 /// Lines that one task draws: enough to amortise its wires, few enough to balance two threads
 /// between sky and ground.
@@ -34,27 +35,41 @@ const BAND: u32 = 16;
 /// Neighbouring lines whose rays walk together.
 pub const GROUP: usize = 4;
 
-/// Draws neighbouring lines, from `first` on, on wires that hold all columns, at the widest SIMD
-/// level of the processor it runs on. Any number of lines will do; most at a time is [`GROUP`].
-pub fn run_lines<W: Complete + Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
-    let level = Level::new();
-    let mut number = first;
-    for group in lines.chunks_mut(GROUP) {
-        dispatch!(level, simd => simd.vectorize(
-            #[inline(always)]
-            || run_units(simd, setup, number, group)
-        ));
-        number += group.len() as u32;
+/// Draws neighbouring lines, from `first` on, on wires that hold all columns. Any number of lines
+/// will do; [`GROUP`] are drawn at a time.
+pub fn run_lines<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
+    for (group, number) in lines.chunks_mut(GROUP).zip((first..).step_by(GROUP)) {
+        W::draw_group(setup, number, group);
     }
 }
 
-#[inline(always)]
-fn run_units<W: Complete + Enterable, S: Simd>(
-    simd: S,
+/// Draws a few neighbouring lines at the widest SIMD level of the processor it runs on.
+fn on_vectors<W: Complete + Packed + Enterable>(
     setup: &Setup<W>,
     first: u32,
     lines: &mut [Line<W>],
 ) {
+    dispatch!(Level::new(), simd => simd.vectorize(
+        #[inline(always)]
+        || {
+            project(setup, first, lines);
+            match &setup.back {
+                Back::Terrain(units) => march::draw(simd, units, lines),
+                Back::Plane(shader) => lines.iter_mut().for_each(|line| shader.run(line)),
+            }
+        }
+    ));
+}
+
+/// Draws a few neighbouring lines ray by ray.
+fn singly<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
+    project(setup, first, lines);
+    lines.iter_mut().for_each(|line| setup.run_back(line));
+}
+
+/// Runs projector and divider.
+#[inline(always)]
+fn project<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
     for (line, number) in lines.iter_mut().zip(first..) {
         line.number = number;
         let start = enter::line_start(&setup.projector, number);
@@ -62,10 +77,6 @@ fn run_units<W: Complete + Enterable, S: Simd>(
         if let Some(divider) = &setup.divider {
             divider.run(line, Method::Direct);
         }
-    }
-    match &setup.back {
-        Back::Terrain(units) => W::draw(simd, units, lines),
-        Back::Plane(shader) => lines.iter_mut().for_each(|line| shader.run(line)),
     }
 }
 

@@ -19,7 +19,7 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
     let number = |number: i32| i32x16::simd_from(land.simd, number);
     let hits = rays.hits;
     let (times, most) = halvings(land, rays);
-    let times = hits.select(times, times - times);
+    let times = hits.select(times, u32x16::simd_from(land.simd, 0));
     // Most of these steps lie in one cell, that of the sample.
     let mut known = Known::new(land, rays.place[0].cell(), rays.place[2].cell());
     let step = rays.step;
@@ -63,7 +63,7 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
     // As `Stepper::beside`: from beside the map or out of a hole a ray meets the side, down to the
     // base.
     let base = W::Words::splat(land.simd, land.stepper.base.int());
-    let still = step[1] - step[1];
+    let still = W::Words::splat(land.simd, W::Int::default());
     let fallen = rays.place[1].less(base) & !still.less(step[1]);
     let beside = fallen.select(number(Hit::Sky as i32), number(Hit::Side as i32));
     rays.outcome = hits.select(meets.select(number(Hit::Surface as i32), beside), rays.outcome);
@@ -83,7 +83,7 @@ fn halvings<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &Rays<W, S>) -> (u3
             }
             let leading = W::Words::leading_one(away);
             let times = (bias - leading).max(0).min(cap as i32);
-            let of_hits = rays.hits.select(times, times - times).to_array();
+            let of_hits = rays.hits.select(times, i32x16::simd_from(land.simd, 0)).to_array();
             (times.bitcast(), of_hits.into_iter().fold(0, i32::max) as u32)
         }
     }

@@ -42,11 +42,16 @@ pub fn run<W: Packed, S: Simd>(
     }
 }
 
-/// Whether the factors that a scene can make long have 32 bits.
+/// Whether the factors that a scene can make long have 32 bits, and their products 64.
 fn factors_are_short<W: Packed, S: Simd>(land: &Land<'_, W, S>, shader: &TerrainShader<W>) -> bool {
-    let short = |factor: W::Int| -> bool { i32::try_from(factor.into()).is_ok() };
-    let scales = land.surface.slope_scale.iter().flatten();
-    short(shader.ramp.gain.int()) && scales.map(|scale| scale.int()).all(short)
+    let short = |factor: W::Int| i32::try_from(factor.into()).is_ok();
+    let steepest: i64 = land.stepper.top.int().into();
+    let product = |factor: W::Int| steepest.checked_mul(4)?.checked_mul(factor.into());
+    short(shader.ramp.gain.int())
+        && land.surface.slope_scale.iter().flatten().all(|scale| {
+            let scale = scale.int();
+            short(scale) && product(scale).is_some()
+        })
 }
 
 /// Up to sixteen pixels as if all of them met the surface.
@@ -162,10 +167,10 @@ fn colors<W: Packed, S: Simd>(
     let last = ramp.segments.len() as i32 - 1;
     let segment = place.cell().max(0).min(last).to_array();
     // The end of the ramp is the end of its last segment.
-    let fraction = place.cell().simd_gt(last).select(
-        i32x16::simd_from(land.simd, 1 << W::Words::<S>::POINT),
-        place.fraction(),
-    );
+    let fraction = place
+        .cell()
+        .simd_gt(last)
+        .select(i32x16::simd_from(land.simd, 1 << W::Words::<S>::POINT), place.fraction());
     let mut colors = [surface; 3];
     for (channel, color) in colors.iter_mut().enumerate() {
         let start = lanes!(lane => ramp.segments[segment[lane] as usize][channel].0.int());

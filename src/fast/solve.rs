@@ -150,9 +150,9 @@ fn part<S: Simd>(span: u32x16<S>, from: i32x16<S>, to: i32x16<S>) -> u32x16<S> {
     const BITS: u32 = 6;
     let mut rest = from.bitcast::<u32x16<S>>() >> 1;
     let whole = rest + ((-to).bitcast::<u32x16<S>>() >> 1) + 1;
-    let mut share = span - span;
+    let mut share = u32x16::simd_from(span.token(), 0);
     for _ in 0..BITS {
-        rest = rest << 1;
+        rest <<= 1;
         let fits = rest.simd_ge(whole);
         rest = fits.select(rest - whole, rest);
         share = fits.select((share << 1) + 1, share << 1);

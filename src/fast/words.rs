@@ -346,7 +346,8 @@ impl<S: Simd> Words<S> for Pair<S> {
     #[inline(always)]
     fn steps_within(self, step: Self, level: u32x16<S>, inverse: u32) -> u32x16<S> {
         let (low, high) = level.widen();
-        steps_within(self.0, step.0, low, inverse).narrow(steps_within(self.1, step.1, high, inverse))
+        steps_within(self.0, step.0, low, inverse)
+            .narrow(steps_within(self.1, step.1, high, inverse))
     }
     #[inline(always)]
     fn weighted(self, weight: i32x16<S>) -> Self {

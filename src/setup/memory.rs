@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::kernel;
-use crate::fast::maxima::{Bend, Maxima};
+use super::maxima::{Bend, Maxima};
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{ALL_BITS, Ground, Plan};
 use crate::scene::{Deformation, Kernel, KernelShape, Outside, Scene, Surface, Terrain};

@@ -4,12 +4,12 @@
 pub mod coefficients;
 pub mod formats;
 pub mod kernel;
+pub mod maxima;
 pub mod memory;
 pub mod table;
 
 use std::sync::Arc;
 
-use crate::fast::maxima::Maxima;
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanError};
 use crate::scene::{Scene, Surface};
@@ -21,6 +21,7 @@ use crate::unit::shader::{PlaneShader, TerrainShader};
 use crate::unit::stepper::{Stepper, SurfaceUnit};
 use crate::word::{Complete, Interpolating, Open, Readout, Register, Shading, Site, World};
 
+pub use maxima::Maxima;
 pub use memory::Memory;
 
 /// Why registers cannot be loaded.

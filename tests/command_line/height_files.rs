@@ -126,6 +126,31 @@ fn other_commands_take_height_files() {
 }
 
 #[test]
+fn files_that_are_no_maps_are_named_for_what_they_are() {
+    let folder = Folder::new();
+    folder.write("junk", [0x80, 1, 2, 3]);
+    folder.write("dem.asc", grid(20, 15, 30.0, 500_000.0, hills));
+    std::fs::create_dir(folder.path("folder")).unwrap();
+    for (arguments, words) in [
+        (&["render", "junk"][..], &["junk", "TOML", "terraline info"][..]),
+        (&["plan", "folder"], &["folder", "is a folder"]),
+        (&["info", "dem.tif"], &["dem.tif", "no such file", "check the name"]),
+        (
+            &["explain", "dem.asc", "--pixel", "1,1", "--set", "camera.position=[9, -9, 9]"],
+            &["dem.asc: camera.position", "raise y"],
+        ),
+    ] {
+        let output = folder.run(arguments);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
+        assert_eq!(stderr.lines().count(), 1, "{stderr}");
+        for word in words {
+            assert!(stderr.contains(word), "no {word:?} in {stderr}");
+        }
+    }
+}
+
+#[test]
 fn info_says_what_was_understood() {
     let folder = Folder::new();
     folder.write("a.asc", grid(50, 40, 0.001, 45.0, hills));

@@ -225,7 +225,7 @@ proptest! {
         let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
         let method = if stored { zip::CompressionMethod::Stored } else { zip::CompressionMethod::Deflated };
         let options = SimpleFileOptions::default().compression_method(method);
-        for (entry, content) in (0..others).map(|at| (format!("{at}.txt"), &name.as_bytes()[..])).chain([(name.clone(), &bytes[..])]) {
+        for (entry, content) in (0..others).map(|at| (format!("{at}.txt"), name.as_bytes())).chain([(name.clone(), &bytes[..])]) {
             zip.start_file(entry, options).expect("memory");
             zip.write_all(content).expect("memory");
         }

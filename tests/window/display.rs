@@ -179,6 +179,7 @@ fn bad_options_are_named() {
         (&["--frames", "1", "--keys", "w www"][..], "`www`"),
         (&["--frames", "1", "--keys", "w w"], "--frames 2"),
         (&["--keys", "w"], "--frames"),
+        (&["--frames", "1", "--keys", "- -"], "--frames 2"),
         (&["--screenshot", "a.png"], "--frames"),
         (&["--scale", "0"], "--scale"),
         (&["--size", "16000x4000"], "--size"),

@@ -1,0 +1,104 @@
+//! What the fast engine knows of a height map beside the machine's memories: for every block of
+//! cells the highest node, and how far the surface bends between two samples of a ray.
+//!
+//! The machine's pyramid bounds every place that a jump from anywhere in a block can reach, so that
+//! a jump is a shift. Here a ray is followed to the very end of its block, which takes a
+//! multiplication, and each block is bounded alone.
+
+use crate::unit::height_memory::{Edge, HeightMemory};
+use crate::unit::pyramid::{cell_maxima, halve_into};
+
+/// Maxima of blocks of 2^level cells, finest first, in coarse steps of height.
+#[derive(Clone, Debug)]
+pub struct Maxima {
+    /// All levels one under the other, in rows of equal length.
+    pub(crate) bounds: Vec<i16>,
+    pub(crate) stride: i32,
+    /// Cells in x and z.
+    pub(crate) cells: (i32, i32),
+    /// First power of two that holds the cells in z: level m starts at row
+    /// 2·rows − (2·rows >> m) + m, which leaves each level a row at least.
+    pub(crate) rows: i32,
+    top: u32,
+    pub(crate) ends: bool,
+    places: u32,
+    bend: Bend,
+}
+
+/// How far a kernel's weight strays from straightness within a cell, rounded up. Equation 33 of
+/// docs/mathematics.md.
+#[derive(Clone, Copy, Debug)]
+pub struct Bend {
+    /// Square of the largest slope, 8 fraction bits.
+    pub slope_squared: u64,
+    /// Half the largest second derivative, 8 fraction bits.
+    pub half_curvature: u64,
+    /// Five times the largest difference of a table's weight to the kernel's, 16 fraction bits.
+    pub error: u32,
+}
+
+/// Bound of a cell that has no surface.
+pub const NOTHING: i16 = i16::MIN;
+
+/// More levels than any map has.
+const LEVELS: u32 = 28;
+
+/// Row of a level's first block.
+fn first_row(rows: usize, level: u32) -> usize {
+    2 * rows - ((2 * rows) >> level) + level as usize
+}
+
+impl Maxima {
+    /// The maxima of a map whose heights are given in coarse steps of 2^places bits, rounded up.
+    /// Cells that touch a node without data have no surface.
+    pub fn new(heights: &HeightMemory<i16>, radius: i32, places: u32, bend: Bend) -> Self {
+        let ends = heights.edge() == Edge::Ends;
+        let cells = (heights.columns() - i32::from(ends), heights.rows() - i32::from(ends));
+        let cells = (cells.0.max(1), cells.1.max(1));
+        let stride = heights.columns() as usize;
+        let rows = (cells.1 as u32).next_power_of_two() as usize;
+        let mut bounds = cell_maxima(heights, radius);
+        if heights.has_voids() {
+            for (at, bound) in (0..).zip(&mut bounds) {
+                if heights.any_void(at % heights.columns(), at / heights.columns(), 2) {
+                    *bound = NOTHING;
+                }
+            }
+        }
+        bounds.resize(first_row(rows, LEVELS) * stride, NOTHING);
+        let (mut width, mut height) = (cells.0 as usize, cells.1 as usize);
+        let (mut level, mut from) = (0, 0);
+        while width > 1 || height > 1 {
+            let to = first_row(rows, level + 1);
+            let (finer, coarser) = bounds.split_at_mut(to * stride);
+            halve_into(&finer[from * stride..], stride, (width, height), coarser);
+            (width, height) = (width.div_ceil(2), height.div_ceil(2));
+            (level, from) = (level + 1, to);
+        }
+        Self {
+            bounds,
+            stride: stride as i32,
+            cells,
+            rows: rows as i32,
+            top: level,
+            ends,
+            places,
+            bend,
+        }
+    }
+
+    /// Level of the one block that holds all cells.
+    pub fn top(&self) -> u32 {
+        self.top
+    }
+
+    /// Bits of a height below a coarse step.
+    pub fn places(&self) -> u32 {
+        self.places
+    }
+
+    /// Straightness of the kernel.
+    pub fn bend(&self) -> Bend {
+        self.bend
+    }
+}

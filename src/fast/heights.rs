@@ -1,7 +1,7 @@
 //! Surface heights of a packet's places: the interpolator's arithmetic on vectors.
 
-use fearless_simd::i32x16;
 use fearless_simd::prelude::*;
+use fearless_simd::{i32x16, u32x16};
 
 use super::march::Land;
 use super::words::{LANES, Packed, Words, lanes};
@@ -15,24 +15,17 @@ pub type Nodes<W, S> = [<W as Packed>::Words<S>; 4];
 /// Loads the nodes of cells; rays that are not asked for may stand anywhere.
 #[inline(always)]
 pub fn nodes<W: Packed, S: Simd>(land: &Land<'_, W, S>, i: i32x16<S>, j: i32x16<S>) -> Nodes<W, S> {
-    let memory = &*land.surface.heights;
-    let (columns, rows) = (memory.columns(), memory.rows());
-    let (west, east) = (i.max(0).min(columns - 1), (i + 1).max(0).min(columns - 1));
-    let (north, south) = (j.max(0).min(rows - 1) * columns, (j + 1).max(0).min(rows - 1) * columns);
-    [
-        load(land, north + west),
-        load(land, south + west),
-        load(land, north + east),
-        load(land, south + east),
-    ]
-}
-
-/// The nodes at addresses.
-#[inline(always)]
-fn load<W: Packed, S: Simd>(land: &Land<'_, W, S>, addresses: i32x16<S>) -> W::Words<S> {
-    let nodes = land.surface.heights.nodes();
-    let at = addresses.to_array();
-    W::Words::load(land.simd, lanes!(lane => nodes[at[lane] as usize].int()))
+    let cells = &land.relief.cells;
+    let (last_i, last_j) = cells.last;
+    let (i, j) = (i.max(-1).min(last_i) + 1, j.max(-1).min(last_j) + 1);
+    let addresses = (j * cells.stride + i).bitcast::<u32x16<S>>().to_array();
+    W::Words::load_four(
+        land.simd,
+        lanes!(lane => {
+            let [h1, h2, h3, h4] = cells.at(addresses[lane]);
+            [h1.int(), h2.int(), h3.int(), h4.int()]
+        }),
+    )
 }
 
 /// Heights at places in the cells of the nodes.

@@ -12,10 +12,10 @@ use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::words::{LANES, Packed, Words};
-use super::{refine, shade, solve};
+use super::{beam, refine, shade, solve};
 use crate::frame::Hit;
-use crate::setup::TerrainUnits;
-use crate::setup::maxima::{Maxima, NOTHING};
+use crate::setup::maxima::NOTHING;
+use crate::setup::{Relief, TerrainUnits};
 use crate::unit::Line;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::line::{Entry, Work};
@@ -30,8 +30,8 @@ pub struct Land<'a, W: World, S> {
     pub stepper: &'a Stepper<W>,
     /// The machine's interpolator.
     pub surface: &'a Interpolator<W>,
-    /// Highest nodes.
-    pub maxima: &'a Maxima,
+    /// The map.
+    pub relief: &'a Relief<W::Height>,
 }
 
 impl<W: World, S: Simd> Land<'_, W, S> {
@@ -39,9 +39,10 @@ impl<W: World, S: Simd> Land<'_, W, S> {
     #[inline(always)]
     pub fn inside(&self, i: i32x16<S>, j: i32x16<S>) -> mask32x16<S> {
         let finest = u32x16::simd_from(self.simd, 0);
-        let (addresses, held) = self.maxima.addresses(finest, i, j);
+        let maxima = &self.relief.maxima;
+        let (addresses, held) = maxima.addresses(finest, i, j);
         if self.surface.heights.has_voids() {
-            held & self.maxima.bounds(addresses).simd_ne(i32::from(NOTHING))
+            held & maxima.bounds(addresses).simd_ne(i32::from(NOTHING))
         } else {
             held
         }
@@ -85,14 +86,14 @@ pub struct Rays<W: Packed, S: Simd> {
 #[inline(always)]
 pub fn draw<W: Packed, S: Simd>(simd: S, units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
     let (stepper, surface) = (&units.stepper, &units.interpolator);
-    let Some(maxima) = units.maxima.as_deref() else {
+    let Some(relief) = units.relief.as_deref() else {
         for line in lines {
             stepper.run(line, surface);
             units.shade(line);
         }
         return;
     };
-    let land = Land { simd, stepper, surface, maxima };
+    let land = Land { simd, stepper, surface, relief };
     run(&land, lines);
     for line in lines {
         shade::run(&land, &units.shader, line);
@@ -105,23 +106,56 @@ pub fn draw<W: Packed, S: Simd>(simd: S, units: &TerrainUnits<W>, lines: &mut [L
 fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, lines: &mut [Line<W>]) {
     let shape = Shape { lines: lines.len(), width: LANES / lines.len() };
     let columns = lines.first().map_or(0, Line::len);
-    for from in (0..columns).step_by(shape.width) {
-        let mut rays = start(land, lines, shape, from);
-        while rays.walks.any_true() {
-            while rays.walks.any_true() {
-                trial(land, &mut rays);
-            }
-            if rays.near.any_true() {
-                solve::run(land, &mut rays);
-            }
+    for from in (0..columns).step_by(TILE * shape.width) {
+        let mut tile = [
+            start(land, lines, shape, from),
+            start(land, lines, shape, from + shape.width),
+            start(land, lines, shape, from + 2 * shape.width),
+            start(land, lines, shape, from + 3 * shape.width),
+        ];
+        beam::skip(land, &mut tile, 4);
+        for pair in tile.chunks_exact_mut(SIDE_BY_SIDE) {
+            march(land, pair);
+            refine::run(land, pair);
         }
-        refine::run(land, &mut rays);
-        finish(&rays, lines, shape, from);
+        for (packet, rays) in tile.iter().enumerate() {
+            finish(rays, lines, shape, from + packet * shape.width);
+        }
     }
 }
 
+/// Takes rays to their first samples under the surface, or out of the map.
+#[inline(always)]
+fn march<W: Packed, S: Simd>(land: &Land<'_, W, S>, packets: &mut [Rays<W, S>]) {
+    while any_walks(packets) {
+        while any_walks(packets) {
+            for rays in &mut *packets {
+                trial(land, rays);
+            }
+        }
+        solve::run(land, packets);
+    }
+}
+
+/// Whether there is a ray that walks.
+#[inline(always)]
+fn any_walks<W: Packed, S: Simd>(packets: &[Rays<W, S>]) -> bool {
+    let mut any = false;
+    for rays in packets {
+        any |= rays.walks.any_true();
+    }
+    any
+}
+
+/// Packets that march side by side: a round is a long chain of operations that wait for each
+/// other, so that two take little longer than one.
+pub const SIDE_BY_SIDE: usize = 2;
+
+/// Packets that start together.
+const TILE: usize = 4;
+
 /// Block size that rays try first.
-const START_LEVEL: u32 = 4;
+const START_LEVEL: u32 = 0;
 
 /// Outcomes by number.
 const OUTCOMES: [Hit; 4] = [Hit::Sky, Hit::Surface, Hit::Side, Hit::Far];
@@ -155,7 +189,7 @@ fn start<W: Packed, S: Simd>(
     let mut met = [0; LANES];
     let mut outcome = [Hit::Sky as i32; LANES];
     for (row, line) in lines.iter().enumerate() {
-        for column in 0..shape.width.min(line.len() - from) {
+        for column in 0..shape.width.min(line.len().saturating_sub(from)) {
             let (lane, i) = (row * shape.width + column, from + column);
             view[0][lane] = line.view_x[i].int();
             view[1][lane] = line.view_y[i].int();
@@ -202,7 +236,7 @@ fn start<W: Packed, S: Simd>(
         place,
         step: [dx, dy, dz],
         index: u32x16::simd_from(simd, 0),
-        level: u32x16::simd_from(simd, START_LEVEL.min(land.maxima.top())),
+        level: u32x16::simd_from(simd, START_LEVEL.min(land.relief.maxima.top())),
         walks: met,
         near: mask(false),
         more: u32x16::simd_from(simd, 0),
@@ -242,6 +276,14 @@ fn inverse<W: Packed>(step: u32) -> u32 {
 }
 
 impl<W: Packed, S: Simd> Rays<W, S> {
+    /// Moves the rays that walk so many samples on.
+    #[inline(always)]
+    pub fn skip(&mut self, steps: u32) {
+        let simd = self.index.token();
+        let none = u32x16::simd_from(simd, 0);
+        self.advance(self.walks.select(u32x16::simd_from(simd, steps), none));
+    }
+
     /// Moves rays so many samples on.
     #[inline(always)]
     pub fn advance(&mut self, steps: u32x16<S>) {
@@ -255,7 +297,7 @@ impl<W: Packed, S: Simd> Rays<W, S> {
 /// One block of every walking ray: passed, or looked at more closely.
 #[inline(always)]
 fn trial<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
-    let (stepper, maxima) = (land.stepper, land.maxima);
+    let (stepper, maxima) = (land.stepper, &land.relief.maxima);
     let [x, y, z] = rays.place;
     let [dx, dy, dz] = rays.step;
     let (level, walks) = (rays.level, rays.walks);
@@ -280,7 +322,10 @@ fn trial<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
     rays.near |= stands;
     rays.walks &= !(stands | sinks);
     let finer = stays.select(level.max(1) - 1, level);
-    rays.level = passes.select((level + 1).min(maxima.top()), finer);
+    // Coarser blocks are worth a try where a ray comes into another one.
+    let moved = (x.cell() ^ rays.place[0].cell()) | (z.cell() ^ rays.place[2].cell());
+    let entered = (moved.bitcast::<u32x16<S>>() >> (level + 1)).simd_ne(0);
+    rays.level = (passes & entered).select((level + 1).min(maxima.top()), finer);
     end_walks(land, rays);
 }
 

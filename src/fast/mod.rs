@@ -6,6 +6,7 @@
 //! sixteen pixels at a time through `shade`. `words` holds the vectors, `heights` the surface.
 #![deny(clippy::float_arithmetic)]
 
+mod beam;
 pub mod enter;
 mod heights;
 mod march;

@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::heights::{Nodes, heights, nodes};
-use super::march::{Land, Rays};
+use super::march::{Land, Rays, SIDE_BY_SIDE};
 use super::words::{Packed, Words};
 use crate::frame::Hit;
 use crate::unit::stepper::HalvingRule;
@@ -12,61 +12,102 @@ use crate::word::Lane as _;
 
 /// Moves rays that hit from their first sample under the surface to the place of the hit.
 #[inline(always)]
-pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
-    if !rays.hits.any_true() {
+pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, packets: &mut [Rays<W, S>]) {
+    let mut any = false;
+    for rays in &*packets {
+        any |= rays.hits.any_true();
+    }
+    if !any {
         return;
     }
-    let number = |number: i32| i32x16::simd_from(land.simd, number);
-    let hits = rays.hits;
-    let (times, most) = halvings(land, rays);
-    let times = hits.select(times, u32x16::simd_from(land.simd, 0));
-    // Most of these steps lie in one cell, that of the sample.
-    let mut known = Known::new(land, rays.place[0].cell(), rays.place[2].cell());
-    let step = rays.step;
-    // The last place found clear, and the last one found under the surface.
-    let ([x, y, z], [dx, dy, dz]) = (rays.place, step);
-    let mut clear = [x - dx, y - dy, z - dz];
-    let mut met = rays.place;
-    let before = Known::new(land, clear[0].cell(), clear[2].cell());
+    let mut searches = [None; SIDE_BY_SIDE];
+    let mut most = 0;
+    for (search, rays) in searches.iter_mut().zip(&*packets) {
+        let (times, most_here) = halvings(land, rays);
+        *search = Some(Refinement::new(land, rays, times));
+        most = most_here.max(most);
+    }
     for halving in 1..=most {
-        let [x, y, z] = clear;
-        let (x, y, z) = (x + dx.halved(halving), y + dy.halved(halving), z + dz.halved(halving));
-        let middle = [x, y, z];
-        let (i, j) = (x.cell(), z.cell());
-        let (after, first) = (known.holds(i, j), before.holds(i, j));
-        if (hits & !(after | first)).any_true() {
-            known = Known::new(land, i, j);
+        for (search, rays) in searches.iter_mut().flatten().zip(&*packets) {
+            search.halve(land, rays, halving);
         }
-        let after = known.holds(i, j);
-        let mut nodes = before.nodes;
-        for (node, known) in nodes.iter_mut().zip(known.nodes) {
+    }
+    for (search, rays) in searches.iter().flatten().zip(packets) {
+        search.end(land, rays);
+    }
+}
+
+/// The last step of every ray that has hit.
+#[derive(Clone, Copy)]
+struct Refinement<W: Packed, S: Simd> {
+    times: u32x16<S>,
+    /// The last place found clear.
+    clear: [W::Words<S>; 3],
+    /// The last place found under the surface.
+    met: [W::Words<S>; 3],
+    /// Most of a step lies in two cells: that of the sample before it, and that of the sample.
+    before: Known<W, S>,
+    known: Known<W, S>,
+}
+
+impl<W: Packed, S: Simd> Refinement<W, S> {
+    #[inline(always)]
+    fn new(land: &Land<'_, W, S>, rays: &Rays<W, S>, times: u32x16<S>) -> Self {
+        let times = rays.hits.select(times, u32x16::simd_from(land.simd, 0));
+        let ([x, y, z], [dx, dy, dz]) = (rays.place, rays.step);
+        let clear = [x - dx, y - dy, z - dz];
+        let before = Known::new(land, clear[0].cell(), clear[2].cell());
+        let known = Known::new(land, x.cell(), z.cell());
+        Self { times, clear, met: rays.place, before, known }
+    }
+
+    /// Halves the interval between clear and met once more.
+    #[inline(always)]
+    fn halve(&mut self, land: &Land<'_, W, S>, rays: &Rays<W, S>, halving: u32) {
+        let ([x, y, z], [dx, dy, dz]) = (self.clear, rays.step);
+        let (x, y, z) = (x + dx.halved(halving), y + dy.halved(halving), z + dz.halved(halving));
+        let (i, j) = (x.cell(), z.cell());
+        let (after, first) = (self.known.holds(i, j), self.before.holds(i, j));
+        if (rays.hits & !(after | first)).any_true() {
+            self.known = Known::new(land, i, j);
+        }
+        let after = self.known.holds(i, j);
+        let mut nodes = self.before.nodes;
+        for (node, known) in nodes.iter_mut().zip(self.known.nodes) {
             *node = W::Words::select(after, known, *node);
         }
         let under = y.less(heights(land, &nodes, x, z)) & land.inside(i, j);
-        let halves = times.simd_ge(halving);
-        for axis in 0..3 {
-            clear[axis] = W::Words::select(halves & !under, middle[axis], clear[axis]);
-            met[axis] = W::Words::select(halves & under, middle[axis], met[axis]);
+        let halves = self.times.simd_ge(halving);
+        for (axis, middle) in [x, y, z].into_iter().enumerate() {
+            self.clear[axis] = W::Words::select(halves & !under, middle, self.clear[axis]);
+            self.met[axis] = W::Words::select(halves & under, middle, self.met[axis]);
         }
     }
-    let meets = land.inside(clear[0].cell(), clear[2].cell());
-    // The middle of the last interval halves the error for one more addition.
-    let mut middle = clear;
-    for (middle, step) in middle.iter_mut().zip(step) {
-        *middle = *middle + step.halved_each(times + 1);
+
+    /// Moves the rays to the middle of the last interval, which halves the error for one more
+    /// addition.
+    #[inline(always)]
+    fn end(&self, land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
+        let number = |number: i32| i32x16::simd_from(land.simd, number);
+        let (hits, step) = (rays.hits, rays.step);
+        let meets = land.inside(self.clear[0].cell(), self.clear[2].cell());
+        let mut middle = self.clear;
+        for (middle, step) in middle.iter_mut().zip(step) {
+            *middle = *middle + step.halved_each(self.times + 1);
+        }
+        let in_between = meets & land.inside(middle[0].cell(), middle[2].cell());
+        for axis in 0..3 {
+            let place = W::Words::select(in_between, middle[axis], self.met[axis]);
+            rays.place[axis] = W::Words::select(hits, place, rays.place[axis]);
+        }
+        // As `Stepper::beside`: from beside the map or out of a hole a ray meets the side, down to
+        // the base.
+        let base = W::Words::splat(land.simd, land.stepper.base.int());
+        let still = W::Words::splat(land.simd, W::Int::default());
+        let fallen = rays.place[1].less(base) & !still.less(step[1]);
+        let beside = fallen.select(number(Hit::Sky as i32), number(Hit::Side as i32));
+        rays.outcome = hits.select(meets.select(number(Hit::Surface as i32), beside), rays.outcome);
     }
-    let in_between = meets & land.inside(middle[0].cell(), middle[2].cell());
-    for axis in 0..3 {
-        let place = W::Words::select(in_between, middle[axis], met[axis]);
-        rays.place[axis] = W::Words::select(hits, place, rays.place[axis]);
-    }
-    // As `Stepper::beside`: from beside the map or out of a hole a ray meets the side, down to the
-    // base.
-    let base = W::Words::splat(land.simd, land.stepper.base.int());
-    let still = W::Words::splat(land.simd, W::Int::default());
-    let fallen = rays.place[1].less(base) & !still.less(step[1]);
-    let beside = fallen.select(number(Hit::Sky as i32), number(Hit::Side as i32));
-    rays.outcome = hits.select(meets.select(number(Hit::Surface as i32), beside), rays.outcome);
 }
 
 /// Halvings of each ray, and the most of all: `Stepper::halvings_at`.
@@ -90,6 +131,7 @@ fn halvings<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &Rays<W, S>) -> (u3
 }
 
 /// Nodes of a cell per ray.
+#[derive(Clone, Copy)]
 struct Known<W: Packed, S: Simd> {
     i: i32x16<S>,
     j: i32x16<S>,

@@ -6,7 +6,7 @@ use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::heights::{entries, nodes, short, slope, weight};
 use super::march::Land;
-use super::words::{LANES, Packed, Words, lanes};
+use super::words::{LANES, Packed, Products, Words, lanes};
 use crate::frame::Hit;
 use crate::unit::Line;
 use crate::unit::interpolator::Form;
@@ -112,7 +112,7 @@ fn word<W: Packed, S: Simd>(land: &Land<'_, W, S>, word: W::Int) -> i32x16<S> {
 /// `a·b`, words of 32 bits, rounded once.
 #[inline(always)]
 fn product<W: Packed, S: Simd>(a: i32x16<S>, b: i32x16<S>) -> i32x16<S> {
-    W::Words::widened(a).weighted(b).low()
+    Products::of(a, b).rounded(W::Words::<S>::POINT)
 }
 
 /// `a·b + c·d`, words of 32 bits, rounded once.
@@ -121,11 +121,7 @@ fn two_products<W: Packed, S: Simd>(
     (a, b): (i32x16<S>, i32x16<S>),
     (c, d): (i32x16<S>, i32x16<S>),
 ) -> i32x16<S> {
-    let point = W::Words::<S>::POINT;
-    let half = 1_i64 << (point - 1);
-    let (low, high) = a.widening_mul(b);
-    let (other_low, other_high) = c.widening_mul(d);
-    ((low + other_low + half) >> point).narrow((high + other_high + half) >> point)
+    (Products::of(a, b) + Products::of(c, d)).rounded(W::Words::<S>::POINT)
 }
 
 /// Ambient plus diffuse light: `Light::shade`.

@@ -10,7 +10,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::heights::{Nodes, heights, nodes};
-use super::march::{Land, Rays, end_walks};
+use super::march::{Land, Rays, SIDE_BY_SIDE, end_walks};
 use super::words::{Packed, Words};
 use crate::unit::interpolator::Form;
 
@@ -25,52 +25,107 @@ const MOST_STEPS: u32 = 1 << 6;
 
 /// Rays that stand in a cell walk on behind it, or hit.
 #[inline(always)]
-pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
-    let number = |number: u32| u32x16::simd_from(land.simd, number);
-    let nodes = nodes(land, rays.place[0].cell(), rays.place[2].cell());
-    let slack = Slack::new(land, rays, &nodes);
-    // Over 3×3 nodes the surface is no patch of this kind: every sample is tested.
-    let every = land.surface.form == Form::Stretch;
-    let more = rays.more;
+pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, packets: &mut [Rays<W, S>]) {
+    let mut searches = [None; SIDE_BY_SIDE];
+    for (search, rays) in searches.iter_mut().zip(&*packets) {
+        *search = Some(Search::new(land, rays));
+    }
+    loop {
+        let mut any = false;
+        for search in searches.iter().flatten() {
+            any |= search.active.any_true();
+        }
+        if !any {
+            break;
+        }
+        for (search, rays) in searches.iter_mut().flatten().zip(&*packets) {
+            search.look(land, rays);
+        }
+    }
+    for (search, rays) in searches.iter().flatten().zip(packets) {
+        search.end(land, rays);
+    }
+}
 
-    // The last sample up to which all are clear, and its gap.
-    let mut low = number(0);
-    let mut gap_low = gaps(land, rays, &nodes, low);
-    let mut hits = rays.near & gap_low.simd_lt(0);
-    // The first sample known to be under the surface, and its gap.
-    let mut under = hits.select(low, number(NONE));
-    let mut gap_under = gap_low;
-    let mut active = rays.near & !hits & more.simd_gt(0);
-    let mut high = if every { number(1) } else { more };
-    while active.any_true() {
-        let gap_high = gaps(land, rays, &nodes, high);
+/// The search in one cell per ray.
+#[derive(Clone, Copy)]
+struct Search<W: Packed, S: Simd> {
+    nodes: Nodes<W, S>,
+    slack: Slack<S>,
+    /// The last sample up to which all are clear, and its gap.
+    low: u32x16<S>,
+    gap_low: i32x16<S>,
+    /// The first sample known to be under the surface, and its gap.
+    under: u32x16<S>,
+    gap_under: i32x16<S>,
+    /// The sample that is looked at next.
+    high: u32x16<S>,
+    active: mask32x16<S>,
+    hits: mask32x16<S>,
+}
+
+impl<W: Packed, S: Simd> Search<W, S> {
+    #[inline(always)]
+    fn new(land: &Land<'_, W, S>, rays: &Rays<W, S>) -> Self {
+        let number = |number: u32| u32x16::simd_from(land.simd, number);
+        let nodes = nodes(land, rays.place[0].cell(), rays.place[2].cell());
+        let slack = Slack::new(land, rays, &nodes);
+        let low = number(0);
+        let gap_low = gaps(land, rays, &nodes, low);
+        let hits = rays.near & gap_low.simd_lt(0);
+        let under = hits.select(low, number(NONE));
+        let active = rays.near & !hits & rays.more.simd_gt(0);
+        let high = if every(land) { number(1) } else { rays.more };
+        Self { nodes, slack, low, gap_low, under, gap_under: gap_low, high, active, hits }
+    }
+
+    /// Looks at one sample.
+    #[inline(always)]
+    fn look(&mut self, land: &Land<'_, W, S>, rays: &Rays<W, S>) {
+        let Self { low, gap_low, under, gap_under, high, active, .. } = *self;
+        let gap_high = gaps(land, rays, &self.nodes, high);
         let dips = active & gap_high.simd_lt(0);
-        let clear = active & !dips & slack.clears(high - low, gap_low, gap_high);
-        under = dips.select(high, under);
-        gap_under = dips.select(gap_high, gap_under);
-        low = clear.select(high, low);
-        gap_low = clear.select(gap_high, gap_low);
+        let clear = active & !dips & self.slack.clears(high - low, gap_low, gap_high);
+        let under = dips.select(high, under);
+        let gap_under = dips.select(gap_high, gap_under);
+        let low = clear.select(high, low);
+        let gap_low = clear.select(gap_high, gap_low);
         let met = active & under.simd_eq(low + 1);
-        hits |= met;
-        active &= !(met | low.simd_eq(more));
         // The next sample: where the ray seems to cross, or the last one; half-way where clear ends
         // did not prove what lies between.
         let crosses = under.simd_ne(NONE);
         let doubtful = !(clear | dips);
-        let target = crosses.select(under, more);
+        let target = crosses.select(under, rays.more);
         let target = doubtful.select(high, target);
         let span = (target - low).min(MOST_STEPS);
         let share = crosses.select(part(span, gap_low, gap_under), span);
         let share = doubtful.select(span >> 1, share);
         let limit = crosses.select(span - 1, span);
-        high = low + if every { number(1) } else { share.min(limit).max(1) };
+        let one = u32x16::simd_from(land.simd, 1);
+        self.high = low + if every(land) { one } else { share.min(limit).max(1) };
+        self.hits |= met;
+        self.active = active & !(met | low.simd_eq(rays.more));
+        (self.low, self.gap_low) = (low, gap_low);
+        (self.under, self.gap_under) = (under, gap_under);
     }
-    let steps = hits.select(under, more + 1);
-    rays.advance(rays.near.select(steps, number(0)));
-    rays.hits |= hits;
-    rays.walks |= rays.near & !hits;
-    rays.near = mask32x16::simd_from(land.simd, false);
-    end_walks(land, rays);
+
+    /// Moves the rays on.
+    #[inline(always)]
+    fn end(&self, land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
+        let none = u32x16::simd_from(land.simd, 0);
+        let steps = self.hits.select(self.under, rays.more + 1);
+        rays.advance(rays.near.select(steps, none));
+        rays.hits |= self.hits;
+        rays.walks |= rays.near & !self.hits;
+        rays.near = mask32x16::simd_from(land.simd, false);
+        end_walks(land, rays);
+    }
+}
+
+/// Over 3×3 nodes the surface is no patch of this kind: every sample is tested.
+#[inline(always)]
+fn every<W: Packed, S: Simd>(land: &Land<'_, W, S>) -> bool {
+    land.surface.form == Form::Stretch
 }
 
 /// Gaps between rays and surface, so many samples on.
@@ -93,6 +148,7 @@ fn gap_places<W: Packed, S: Simd>() -> u32 {
 }
 
 /// How far gaps may stray from straight lines, per ray (equation 33), in steps of gaps.
+#[derive(Clone, Copy)]
 struct Slack<S: Simd> {
     /// A of one step.
     bend: i32x16<S>,
@@ -107,7 +163,7 @@ impl<S: Simd> Slack<S> {
     #[inline(always)]
     fn new<W: Packed>(land: &Land<'_, W, S>, rays: &Rays<W, S>, nodes: &Nodes<W, S>) -> Self {
         let [x, z] = rays.longest;
-        let straight = land.maxima.bend();
+        let straight = land.relief.bend;
         let up = |product: u64| ((product >> 24) + 1).min(u64::from(u32::MAX)) as u32;
         let twist = up(x * z * straight.slope_squared);
         let bend_x = up(x * x * straight.half_curvature);

@@ -6,7 +6,7 @@
 use std::ops::{Add, Sub};
 
 use fearless_simd::prelude::*;
-use fearless_simd::{i32x16, i64x8, mask32x16, u32x16, u64x8};
+use fearless_simd::{i32x4, i32x16, i64x4, i64x8, mask32x16, u32x16, u64x8};
 
 use crate::word::stock::{Narrow, Wide};
 use crate::word::{Interpolating, Lane, Shading, World};
@@ -64,6 +64,8 @@ pub trait Words<S: Simd>: Copy + Add<Output = Self> + Sub<Output = Self> {
 
     /// From one word per lane.
     fn load(simd: S, words: [Self::Int; LANES]) -> Self;
+    /// From four words per lane: the first ones, the second ones, and so on.
+    fn load_four(simd: S, words: [[Self::Int; 4]; LANES]) -> [Self; 4];
     /// One word in all lanes.
     fn splat(simd: S, word: Self::Int) -> Self;
     /// One word per lane.
@@ -72,6 +74,8 @@ pub trait Words<S: Simd>: Copy + Add<Output = Self> + Sub<Output = Self> {
     fn select(mask: mask32x16<S>, yes: Self, no: Self) -> Self;
     /// Where words are less.
     fn less(self, than: Self) -> mask32x16<S>;
+    /// Least and greatest of the words where the mask is set.
+    fn range(self, of: mask32x16<S>) -> (i64, i64);
     /// The lesser words.
     fn lesser(self, other: Self) -> Self;
     /// `self + k·step`.
@@ -108,6 +112,15 @@ pub trait Words<S: Simd>: Copy + Add<Output = Self> + Sub<Output = Self> {
     fn widened(words: i32x16<S>) -> Self;
 }
 
+/// Four times four words side by side.
+#[inline(always)]
+fn four<S: Simd>(simd: S, words: &[[i32; 4]; LANES], from: usize) -> i32x16<S> {
+    let [a, b, c, d] = [words[from], words[from + 1], words[from + 2], words[from + 3]];
+    let (a, b) = (i32x4::simd_from(simd, a), i32x4::simd_from(simd, b));
+    let (c, d) = (i32x4::simd_from(simd, c), i32x4::simd_from(simd, d));
+    a.combine(b).combine(c.combine(d))
+}
+
 impl<S: Simd> Words<S> for i32x16<S> {
     type Int = i32;
     const POINT: u32 = <Narrow as World>::Ground::FRACTION;
@@ -115,6 +128,18 @@ impl<S: Simd> Words<S> for i32x16<S> {
     #[inline(always)]
     fn load(simd: S, words: [i32; LANES]) -> Self {
         Self::simd_from(simd, words)
+    }
+    #[inline(always)]
+    fn load_four(simd: S, w: [[i32; 4]; LANES]) -> [Self; 4] {
+        let q = [four(simd, &w, 0), four(simd, &w, 4), four(simd, &w, 8), four(simd, &w, 12)];
+        let (even, odd) = (q[0].unzip_low(q[1]), q[0].unzip_high(q[1]));
+        let (later_even, later_odd) = (q[2].unzip_low(q[3]), q[2].unzip_high(q[3]));
+        [
+            even.unzip_low(later_even),
+            odd.unzip_low(later_odd),
+            even.unzip_high(later_even),
+            odd.unzip_high(later_odd),
+        ]
     }
     #[inline(always)]
     fn splat(simd: S, word: i32) -> Self {
@@ -131,6 +156,13 @@ impl<S: Simd> Words<S> for i32x16<S> {
     #[inline(always)]
     fn less(self, than: Self) -> mask32x16<S> {
         self.simd_lt(than)
+    }
+    #[inline(always)]
+    fn range(self, of: mask32x16<S>) -> (i64, i64) {
+        let all = |word: i32| Self::simd_from(self.token(), word);
+        let least = of.select(self, all(i32::MAX)).reduce_min();
+        let most = of.select(self, all(i32::MIN)).reduce_max();
+        (least.into(), most.into())
     }
     #[inline(always)]
     fn lesser(self, other: Self) -> Self {
@@ -180,14 +212,14 @@ impl<S: Simd> Words<S> for i32x16<S> {
         let mirror = !(step >> 31);
         let block = u32x16::simd_from(simd, u32::MAX) >> (31 - Self::POINT + 1 - level);
         let left = (self ^ mirror).bitcast::<u32x16<S>>() & block;
-        let (low, high) = left.widening_mul(u32x16::simd_from(simd, inverse));
-        (low >> (Self::POINT + 20)).narrow(high >> (Self::POINT + 20))
+        let inverse = u64x8::simd_from(simd, u64::from(inverse));
+        let left = left.bitcast::<u64x8<S>>();
+        let (even, odd) = ((left & LOW) * inverse, (left >> 32) * inverse);
+        ((even >> (Self::POINT + 20)) | ((odd >> (Self::POINT + 20)) << 32)).bitcast()
     }
     #[inline(always)]
     fn weighted(self, weight: i32x16<S>) -> Self {
-        let (low, high) = self.widening_mul(weight);
-        let half = 1_i64 << (Self::POINT - 1);
-        ((low + half) >> Self::POINT).narrow((high + half) >> Self::POINT)
+        Products::of(self, weight).rounded(Self::POINT)
     }
     #[inline(always)]
     fn rescaled(self, exponent: i32) -> Self {
@@ -217,6 +249,40 @@ impl<S: Simd> Words<S> for i32x16<S> {
     }
 }
 
+/// The lower half of a word of 64 bits.
+const LOW: u64 = u32::MAX as u64;
+
+/// Products of 32-bit words with all their bits: of the even lanes, and of the odd lanes. Even and
+/// odd lanes need no moves between lanes, as lower and upper ones would.
+#[derive(Clone, Copy)]
+pub struct Products<S: Simd>(i64x8<S>, i64x8<S>);
+
+impl<S: Simd> Products<S> {
+    /// `a·b`.
+    #[inline(always)]
+    pub fn of(a: i32x16<S>, b: i32x16<S>) -> Self {
+        let (a, b) = (a.bitcast::<i64x8<S>>(), b.bitcast::<i64x8<S>>());
+        Self(((a << 32) >> 32) * ((b << 32) >> 32), (a >> 32) * (b >> 32))
+    }
+
+    /// Divided by 2^places, 1 to 32 places, rounded to nearest, ties upward; outcomes have 32 bits.
+    #[inline(always)]
+    pub fn rounded(self, places: u32) -> i32x16<S> {
+        let half = 1_i64 << (places - 1);
+        let even = ((self.0 + half) >> places).bitcast::<u64x8<S>>() & LOW;
+        let odd = ((self.1 + half) << (32 - places)).bitcast::<u64x8<S>>() & !LOW;
+        (even | odd).bitcast()
+    }
+}
+
+impl<S: Simd> Add for Products<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0, self.1 + other.1)
+    }
+}
+
 /// Sixteen words of 64 bits.
 #[derive(Clone, Copy)]
 pub struct Pair<S: Simd>(i64x8<S>, i64x8<S>);
@@ -235,6 +301,31 @@ impl<S: Simd> Sub for Pair<S> {
     fn sub(self, other: Self) -> Self {
         Self(self.0 - other.0, self.1 - other.1)
     }
+}
+
+/// Two times four words side by side.
+#[inline(always)]
+fn two<S: Simd>(simd: S, first: [i64; 4], second: [i64; 4]) -> i64x8<S> {
+    i64x4::simd_from(simd, first).combine(i64x4::simd_from(simd, second))
+}
+
+/// Half of [`Words::load_four`].
+#[inline(always)]
+fn transposed<S: Simd>(simd: S, words: &[[i64; 4]; LANES], from: usize) -> [i64x8<S>; 4] {
+    let q = [
+        two(simd, words[from], words[from + 1]),
+        two(simd, words[from + 2], words[from + 3]),
+        two(simd, words[from + 4], words[from + 5]),
+        two(simd, words[from + 6], words[from + 7]),
+    ];
+    let (even, odd) = (q[0].unzip_low(q[1]), q[0].unzip_high(q[1]));
+    let (later_even, later_odd) = (q[2].unzip_low(q[3]), q[2].unzip_high(q[3]));
+    [
+        even.unzip_low(later_even),
+        odd.unzip_low(later_odd),
+        even.unzip_high(later_even),
+        odd.unzip_high(later_odd),
+    ]
 }
 
 /// Half of [`Words::steps_within`].
@@ -275,6 +366,12 @@ impl<S: Simd> Words<S> for Pair<S> {
         Self(i64x8::from_slice(simd, low), i64x8::from_slice(simd, high))
     }
     #[inline(always)]
+    fn load_four(simd: S, words: [[i64; 4]; LANES]) -> [Self; 4] {
+        let [a, b, c, d] = transposed(simd, &words, 0);
+        let [e, f, g, h] = transposed(simd, &words, LANES / 2);
+        [Self(a, e), Self(b, f), Self(c, g), Self(d, h)]
+    }
+    #[inline(always)]
     fn splat(simd: S, word: i64) -> Self {
         let words = i64x8::simd_from(simd, word);
         Self(words, words)
@@ -295,6 +392,13 @@ impl<S: Simd> Words<S> for Pair<S> {
     #[inline(always)]
     fn less(self, than: Self) -> mask32x16<S> {
         self.0.simd_lt(than.0).narrow(self.1.simd_lt(than.1))
+    }
+    #[inline(always)]
+    fn range(self, of: mask32x16<S>) -> (i64, i64) {
+        let simd = self.0.token();
+        let least = Self::select(of, self, Self::splat(simd, i64::MAX));
+        let most = Self::select(of, self, Self::splat(simd, i64::MIN));
+        (least.0.min(least.1).reduce_min(), most.0.max(most.1).reduce_max())
     }
     #[inline(always)]
     fn lesser(self, other: Self) -> Self {

@@ -22,7 +22,6 @@ pub struct Maxima {
     top: u32,
     pub(crate) ends: bool,
     places: u32,
-    bend: Bend,
 }
 
 /// How far a kernel's weight strays from straightness within a cell, rounded up. Equation 33 of
@@ -51,7 +50,7 @@ fn first_row(rows: usize, level: u32) -> usize {
 impl Maxima {
     /// The maxima of a map whose heights are given in coarse steps of 2^places bits, rounded up.
     /// Cells that touch a node without data have no surface.
-    pub fn new(heights: &HeightMemory<i16>, radius: i32, places: u32, bend: Bend) -> Self {
+    pub fn new(heights: &HeightMemory<i16>, radius: i32, places: u32) -> Self {
         let ends = heights.edge() == Edge::Ends;
         let cells = (heights.columns() - i32::from(ends), heights.rows() - i32::from(ends));
         let cells = (cells.0.max(1), cells.1.max(1));
@@ -75,16 +74,7 @@ impl Maxima {
             (width, height) = (width.div_ceil(2), height.div_ceil(2));
             (level, from) = (level + 1, to);
         }
-        Self {
-            bounds,
-            stride: stride as i32,
-            cells,
-            rows: rows as i32,
-            top: level,
-            ends,
-            places,
-            bend,
-        }
+        Self { bounds, stride: stride as i32, cells, rows: rows as i32, top: level, ends, places }
     }
 
     /// Level of the one block that holds all cells.
@@ -97,8 +87,28 @@ impl Maxima {
         self.places
     }
 
-    /// Straightness of the kernel.
-    pub fn bend(&self) -> Bend {
-        self.bend
+    /// At least the highest node of a box of cells, given by its first and last cell in x and z.
+    #[inline(always)]
+    pub fn around(&self, x: (i32, i32), z: (i32, i32)) -> i16 {
+        // Blocks so large that the box lies in two of them at most, each way.
+        let extent = (x.1 - x.0).max(z.1 - z.0) as u32;
+        let level = (u32::BITS - extent.leading_zeros()).min(self.top);
+        let block = |cell: i32, last: i32| {
+            let cell = if self.ends { cell } else { cell.clamp(0, last) };
+            cell >> level
+        };
+        let (last_i, last_j) = (self.cells.0 - 1, self.cells.1 - 1);
+        let first_row = 2 * self.rows - ((2 * self.rows) >> level) + level as i32;
+        let mut most = NOTHING;
+        for j in [block(z.0, last_j), block(z.1, last_j)] {
+            for i in [block(x.0, last_i), block(x.1, last_i)] {
+                if (i as u32) <= (last_i >> level) as u32 && (j as u32) <= (last_j >> level) as u32
+                {
+                    let address = (first_row + j) * self.stride + i;
+                    most = most.max(self.bounds[address as usize]);
+                }
+            }
+        }
+        most
     }
 }

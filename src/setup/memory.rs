@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::cells::Cells;
 use super::kernel;
 use super::maxima::{Bend, Maxima};
 use crate::plan::ranges::WalkPlan;
@@ -28,8 +29,8 @@ pub struct Memory<W: World> {
     pub heights: Arc<HeightMemory<W::Height>>,
     /// Bounds for skipping.
     pub pyramid: Option<Arc<Pyramid<W::Height>>>,
-    /// Maxima of blocks, for the fast engine; absent where the machine does not skip.
-    pub maxima: Option<Arc<Maxima>>,
+    /// The map as the fast engine reads it; absent where the machine does not skip.
+    pub relief: Option<Arc<Relief<W::Height>>>,
     /// Kernel tables.
     pub rom: Option<Arc<KernelRom<W::Weight>>>,
     /// How nodes are weighted.
@@ -38,6 +39,17 @@ pub struct Memory<W: World> {
     pub rsqrt: Arc<Vec<W::Tone>>,
     /// Entries per unit of `rsqrt`, as a power of two.
     pub rsqrt_log2: u32,
+}
+
+/// What the packets of the fast engine read of a height map, beside the machine's memories.
+#[derive(Clone, Debug)]
+pub struct Relief<T> {
+    /// Highest nodes of blocks.
+    pub maxima: Maxima,
+    /// Nodes.
+    pub cells: Cells<T>,
+    /// Straightness of the kernel.
+    pub bend: Bend,
 }
 
 /// Loads a value that the plan has proved to fit, or says which register it overflows.
@@ -63,12 +75,18 @@ impl<W: Open> Memory<W> {
         let form = form(&scene.kernel, plan);
         let radius = i32::from(form == Form::Stretch);
         let pyramid = plan.fitted.pyramid.then(|| Arc::new(Pyramid::new(&heights, radius)));
-        let maxima = world
+        let relief = world
             .fixed(Register::Node)
             .filter(|format| {
                 plan.fitted.pyramid && packets_walk(&heights, form, walk, format.point)
             })
-            .map(|format| Arc::new(maxima(&heights, walk, &scene.kernel, form, format.point)));
+            .map(|format| {
+                Arc::new(Relief {
+                    maxima: maxima(&heights, walk, form, format.point),
+                    cells: Cells::new(&heights),
+                    bend: bend(&scene.kernel, form),
+                })
+            });
         let rom = match form {
             Form::Hat => None,
             _ => Some(Arc::new(kernel_rom(world, &scene.kernel)?)),
@@ -85,7 +103,7 @@ impl<W: Open> Memory<W> {
         Ok(Some(Self {
             heights: Arc::new(heights),
             pyramid,
-            maxima,
+            relief,
             rom,
             form,
             rsqrt: Arc::new(rsqrt),
@@ -151,7 +169,6 @@ fn bits(value: f64, point: u32) -> i32 {
 fn maxima<T: Readout + Send + Sync>(
     heights: &HeightMemory<T>,
     walk: &WalkPlan,
-    kernel: &Kernel,
     form: Form,
     point: u32,
 ) -> Maxima {
@@ -160,7 +177,7 @@ fn maxima<T: Readout + Send + Sync>(
     let nodes = heights.nodes();
     let coarse = nodes.par_iter().map(|node| libm::ceil(node.value() * steps) as i16).collect();
     let coarse = heights.with_words(coarse);
-    Maxima::new(&coarse, i32::from(form == Form::Stretch), places, bend(kernel, form))
+    Maxima::new(&coarse, i32::from(form == Form::Stretch), places)
 }
 
 /// Straightness of a weight over 2×2 nodes (equation 33); its blend's shift is a factor on what the

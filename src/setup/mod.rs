@@ -1,6 +1,7 @@
 //! Set-up: the one door from `f64` to words. Coefficients are computed in `f64` once per frame and
 //! quantised into the registers of the units that the plan fits.
 
+pub mod cells;
 pub mod coefficients;
 pub mod formats;
 pub mod kernel;
@@ -21,8 +22,9 @@ use crate::unit::shader::{PlaneShader, TerrainShader};
 use crate::unit::stepper::{Stepper, SurfaceUnit};
 use crate::word::{Complete, Interpolating, Open, Readout, Register, Shading, Site, World};
 
+pub use cells::Cells;
 pub use maxima::Maxima;
-pub use memory::Memory;
+pub use memory::{Memory, Relief};
 
 /// Why registers cannot be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -60,8 +62,8 @@ pub struct TerrainUnits<W: World> {
     pub interpolator: Interpolator<W>,
     /// Shader.
     pub shader: TerrainShader<W>,
-    /// What the fast engine skips by; absent where the machine does not skip.
-    pub maxima: Option<Arc<Maxima>>,
+    /// The map as the fast engine reads it; absent where the machine does not skip.
+    pub relief: Option<Arc<Relief<W::Height>>>,
 }
 
 /// All registers of a machine, loaded.
@@ -103,7 +105,7 @@ impl<W: Complete> Setup<W> {
                     stepper,
                     interpolator,
                     shader,
-                    maxima: memory.maxima.clone(),
+                    relief: memory.relief.clone(),
                 }))
             }
             (Surface::Plane(plane), Ground::Plane(planned), _) => Back::Plane(

@@ -130,7 +130,9 @@ fn march<W: Packed, S: Simd>(land: &Land<'_, W, S>, packets: &mut [Rays<W, S>]) 
     while any_walks(packets) {
         while any_walks(packets) {
             for rays in &mut *packets {
-                trial(land, rays);
+                if rays.walks.any_true() {
+                    trial(land, rays);
+                }
             }
         }
         solve::run(land, packets);
@@ -149,7 +151,7 @@ fn any_walks<W: Packed, S: Simd>(packets: &[Rays<W, S>]) -> bool {
 
 /// Packets that march side by side: a round is a long chain of operations that wait for each
 /// other, so that two take little longer than one.
-pub const SIDE_BY_SIDE: usize = 2;
+pub const SIDE_BY_SIDE: usize = 4;
 
 /// Packets that start together.
 const TILE: usize = 4;

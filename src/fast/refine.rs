@@ -13,27 +13,26 @@ use crate::word::Lane as _;
 /// Moves rays that hit from their first sample under the surface to the place of the hit.
 #[inline(always)]
 pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, packets: &mut [Rays<W, S>]) {
-    let mut any = false;
-    for rays in &*packets {
-        any |= rays.hits.any_true();
-    }
-    if !any {
-        return;
-    }
     let mut searches = [None; SIDE_BY_SIDE];
     let mut most = 0;
     for (search, rays) in searches.iter_mut().zip(&*packets) {
-        let (times, most_here) = halvings(land, rays);
-        *search = Some(Refinement::new(land, rays, times));
-        most = most_here.max(most);
-    }
-    for halving in 1..=most {
-        for (search, rays) in searches.iter_mut().flatten().zip(&*packets) {
-            search.halve(land, rays, halving);
+        if rays.hits.any_true() {
+            let (times, most_here) = halvings(land, rays);
+            *search = Some(Refinement::new(land, rays, times));
+            most = most_here.max(most);
         }
     }
-    for (search, rays) in searches.iter().flatten().zip(packets) {
-        search.end(land, rays);
+    for halving in 1..=most {
+        for (search, rays) in searches.iter_mut().zip(&*packets) {
+            if let Some(search) = search {
+                search.halve(land, rays, halving);
+            }
+        }
+    }
+    for (search, rays) in searches.iter().zip(packets) {
+        if let Some(search) = search {
+            search.end(land, rays);
+        }
     }
 }
 

@@ -28,22 +28,28 @@ const MOST_STEPS: u32 = 1 << 6;
 pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, packets: &mut [Rays<W, S>]) {
     let mut searches = [None; SIDE_BY_SIDE];
     for (search, rays) in searches.iter_mut().zip(&*packets) {
-        *search = Some(Search::new(land, rays));
+        if rays.near.any_true() {
+            *search = Some(Search::new(land, rays));
+        }
     }
     loop {
         let mut any = false;
-        for search in searches.iter().flatten() {
-            any |= search.active.any_true();
+        for (search, rays) in searches.iter_mut().zip(&*packets) {
+            if let Some(search) = search
+                && search.active.any_true()
+            {
+                search.look(land, rays);
+                any = true;
+            }
         }
         if !any {
             break;
         }
-        for (search, rays) in searches.iter_mut().flatten().zip(&*packets) {
-            search.look(land, rays);
-        }
     }
-    for (search, rays) in searches.iter().flatten().zip(packets) {
-        search.end(land, rays);
+    for (search, rays) in searches.iter().zip(packets) {
+        if let Some(search) = search {
+            search.end(land, rays);
+        }
     }
 }
 
@@ -206,12 +212,13 @@ fn part<S: Simd>(span: u32x16<S>, from: i32x16<S>, to: i32x16<S>) -> u32x16<S> {
     const BITS: u32 = 6;
     let mut rest = from.bitcast::<u32x16<S>>() >> 1;
     let whole = rest + ((-to).bitcast::<u32x16<S>>() >> 1) + 1;
-    let mut share = u32x16::simd_from(span.token(), 0);
+    let (none, one) = (u32x16::simd_from(span.token(), 0), u32x16::simd_from(span.token(), 1));
+    let mut share = none;
     for _ in 0..BITS {
-        rest <<= 1;
-        let fits = rest.simd_ge(whole);
-        rest = fits.select(rest - whole, rest);
-        share = fits.select((share << 1) + 1, share << 1);
+        // The difference wraps to a large number where `whole` does not fit.
+        let twice = rest << 1;
+        rest = twice.min(twice - whole);
+        share = (share << 1) + twice.simd_ge(whole).select(one, none);
     }
     (span * share) >> BITS
 }

@@ -5,6 +5,7 @@ use fearless_simd::{i32x16, u32x16};
 
 use super::march::Land;
 use super::words::{LANES, Packed, Words, lanes};
+use crate::setup::relief::Table;
 use crate::unit::interpolator::Form;
 use crate::unit::stepper::SurfaceUnit;
 use crate::word::{Lane as _, Site};
@@ -61,9 +62,9 @@ pub fn entries<W: Packed, S: Simd>(
     land: &Land<'_, W, S>,
     fraction: i32x16<S>,
 ) -> Option<[i32; LANES]> {
-    let rom = land.surface.rom.as_ref().filter(|_| land.surface.form != Form::Hat)?;
-    let places = W::Words::<S>::POINT - rom.log2();
-    Some(((fraction + (1 << (places - 1))) >> places).to_array())
+    let places = W::Words::<S>::POINT - land.relief.weights.as_ref()?.log2;
+    let nearest = (fraction + (1 << (places - 1))) >> places;
+    Some((nearest & Table::MASK).to_array())
 }
 
 /// Weights of the lower nodes of an axis: `Interpolator::weight`.
@@ -74,8 +75,8 @@ pub fn weight<W: Packed, S: Simd>(
     entries: Option<&[i32; LANES]>,
 ) -> i32x16<S> {
     let hat = (1 << W::Words::<S>::POINT) - fraction;
-    let (Some(rom), Some(entries)) = (&land.surface.rom, entries) else { return hat };
-    let kernel = lanes!(lane => short::<W>(rom.weight(entries[lane] as usize).int()));
+    let (Some(weights), Some(entries)) = (&land.relief.weights, entries) else { return hat };
+    let kernel = lanes!(lane => weights.weight.at(entries[lane]));
     let kernel = i32x16::simd_from(land.simd, kernel);
     match land.surface.form {
         Form::Blend(shift) => hat + shifted_toward_zero(kernel - hat, shift),
@@ -90,21 +91,14 @@ pub fn slope<W: Packed, S: Simd>(
     entries: Option<&[i32; LANES]>,
 ) -> i32x16<S> {
     let one = i32x16::simd_from(land.simd, 1 << W::Words::<S>::POINT);
-    let (Some(rom), Some(entries)) = (&land.surface.rom, entries) else { return -one };
-    let kernel = lanes!(lane => short::<W>(rom.slope(entries[lane] as usize).int()));
+    let (Some(weights), Some(entries)) = (&land.relief.weights, entries) else { return -one };
+    let kernel = lanes!(lane => weights.slope.at(entries[lane]));
     let kernel = i32x16::simd_from(land.simd, kernel);
     match land.surface.form {
         // The hat falls with slope one.
         Form::Blend(shift) => shifted_toward_zero(kernel + one, shift) - one,
         Form::Plain | Form::Stretch | Form::Hat => kernel,
     }
-}
-
-/// A word that is known to have 32 bits.
-#[inline(always)]
-pub fn short<W: Packed>(word: W::Int) -> i32 {
-    let word: i64 = word.into();
-    word as i32
 }
 
 /// As `Word::shift_toward_zero`.

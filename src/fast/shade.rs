@@ -4,7 +4,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
-use super::heights::{entries, nodes, short, slope, weight};
+use super::heights::{entries, nodes, slope, weight};
 use super::march::Land;
 use super::words::{LANES, Packed, Products, Words, lanes};
 use crate::frame::Hit;
@@ -101,6 +101,13 @@ fn lit<W: Packed, S: Simd>(
         line.slope_z[from + lane] = W::Height::of_int(slope_z[lane]);
         line.color[from + lane] = [red[lane] as u8, green[lane] as u8, blue[lane] as u8];
     }
+}
+
+/// A word that is known to have 32 bits.
+#[inline(always)]
+fn short<W: Packed>(word: W::Int) -> i32 {
+    let word: i64 = word.into();
+    word as i32
 }
 
 /// A register of at most 32 bits in all lanes.

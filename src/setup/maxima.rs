@@ -1,5 +1,4 @@
-//! What the fast engine knows of a height map beside the machine's memories: for every block of
-//! cells the highest node, and how far the surface bends between two samples of a ray.
+//! The highest node of every block of cells, for the fast engine.
 //!
 //! The machine's pyramid bounds every place that a jump from anywhere in a block can reach, so that
 //! a jump is a shift. Here a ray is followed to the very end of its block, which takes a
@@ -22,18 +21,6 @@ pub struct Maxima {
     top: u32,
     pub(crate) ends: bool,
     places: u32,
-}
-
-/// How far a kernel's weight strays from straightness within a cell, rounded up. Equation 33 of
-/// docs/mathematics.md.
-#[derive(Clone, Copy, Debug)]
-pub struct Bend {
-    /// Square of the largest slope, 8 fraction bits.
-    pub slope_squared: u64,
-    /// Half the largest second derivative, 8 fraction bits.
-    pub half_curvature: u64,
-    /// Five times the largest difference of a table's weight to the kernel's, 16 fraction bits.
-    pub error: u32,
 }
 
 /// Bound of a cell that has no surface.

@@ -4,9 +4,8 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::cells::Cells;
 use super::kernel;
-use super::maxima::{Bend, Maxima};
+use super::relief::Relief;
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{ALL_BITS, Ground, Plan};
 use crate::scene::{Deformation, Kernel, KernelShape, Outside, Scene, Surface, Terrain};
@@ -14,13 +13,10 @@ use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
 use crate::unit::kernel_rom::KernelRom;
 use crate::unit::pyramid::Pyramid;
-use crate::word::{Load, Open, Readout, Register, World};
+use crate::word::{Load, Open, Register, World};
 
 /// Entries per unit of the reciprocal-square-root table, as a power of two.
 const RSQRT_LOG2: u32 = 10;
-
-/// Roundings of a weight: more than its last bits in any stock world.
-const ROUNDINGS: f64 = 1.0 / (1 << 18) as f64;
 
 /// The machine's memories for one height map.
 #[derive(Clone, Debug)]
@@ -39,17 +35,6 @@ pub struct Memory<W: World> {
     pub rsqrt: Arc<Vec<W::Tone>>,
     /// Entries per unit of `rsqrt`, as a power of two.
     pub rsqrt_log2: u32,
-}
-
-/// What the packets of the fast engine read of a height map, beside the machine's memories.
-#[derive(Clone, Debug)]
-pub struct Relief<T> {
-    /// Highest nodes of blocks.
-    pub maxima: Maxima,
-    /// Nodes.
-    pub cells: Cells<T>,
-    /// Straightness of the kernel.
-    pub bend: Bend,
 }
 
 /// Loads a value that the plan has proved to fit, or says which register it overflows.
@@ -75,22 +60,13 @@ impl<W: Open> Memory<W> {
         let form = form(&scene.kernel, plan);
         let radius = i32::from(form == Form::Stretch);
         let pyramid = plan.fitted.pyramid.then(|| Arc::new(Pyramid::new(&heights, radius)));
-        let relief = world
-            .fixed(Register::Node)
-            .filter(|format| {
-                plan.fitted.pyramid && packets_walk(&heights, form, walk, format.point)
-            })
-            .map(|format| {
-                Arc::new(Relief {
-                    maxima: maxima(&heights, walk, form, format.point),
-                    cells: Cells::new(&heights),
-                    bend: bend(&scene.kernel, form),
-                })
-            });
         let rom = match form {
             Form::Hat => None,
             _ => Some(Arc::new(kernel_rom(world, &scene.kernel)?)),
         };
+        let relief = plan.fitted.pyramid.then(|| {
+            Relief::new(world, &heights, rom.as_deref(), walk, &scene.kernel, form).map(Arc::new)
+        });
         let tone = world.tone(Register::Shade);
         let rsqrt = (0..=4_u32 << RSQRT_LOG2)
             .map(|t| {
@@ -103,7 +79,7 @@ impl<W: Open> Memory<W> {
         Ok(Some(Self {
             heights: Arc::new(heights),
             pyramid,
-            relief,
+            relief: relief.flatten(),
             rom,
             form,
             rsqrt: Arc::new(rsqrt),
@@ -142,62 +118,6 @@ fn heights<W: Open>(
     } else {
         memory
     })
-}
-
-/// Whether the fast engine's packets know the map: not where blocks would meet at a seam, nor holes
-/// that are no cells of the map, nor heights whose products with weights need more than 64 bits.
-fn packets_walk<T: Copy>(
-    heights: &HeightMemory<T>,
-    form: Form,
-    walk: &WalkPlan,
-    point: u32,
-) -> bool {
-    let cells = match heights.edge() {
-        Edge::Wraps => false,
-        Edge::Clamps => !heights.has_voids(),
-        Edge::Ends => !heights.has_voids() || form != Form::Stretch,
-    };
-    cells && bits(walk.top, point) + (point as i32) < 62
-}
-
-/// Bits of a positive value with a binary point, rounded up.
-fn bits(value: f64, point: u32) -> i32 {
-    libm::ceil(libm::log2(value.max(f64::MIN_POSITIVE))) as i32 + point as i32
-}
-
-/// The fast engine's maxima: heights in coarse steps of 15 bits, rounded up.
-fn maxima<T: Readout + Send + Sync>(
-    heights: &HeightMemory<T>,
-    walk: &WalkPlan,
-    form: Form,
-    point: u32,
-) -> Maxima {
-    let places = (bits(walk.top, point) - 14).max(0) as u32;
-    let steps = libm::exp2(f64::from(point) - f64::from(places));
-    let nodes = heights.nodes();
-    let coarse = nodes.par_iter().map(|node| libm::ceil(node.value() * steps) as i16).collect();
-    let coarse = heights.with_words(coarse);
-    Maxima::new(&coarse, i32::from(form == Form::Stretch), places)
-}
-
-/// Straightness of a weight over 2×2 nodes (equation 33); its blend's shift is a factor on what the
-/// kernel differs from the hat by.
-fn bend(kernel: &Kernel, form: Form) -> Bend {
-    let share = match form {
-        Form::Hat => 0.0,
-        Form::Blend(shift) => libm::exp2(-f64::from(shift)),
-        Form::Plain | Form::Stretch => 1.0,
-    };
-    let steepest = 1.0 + share * (kernel::steepest(kernel.shape) - 1.0);
-    // Half an entry of the table at its steepest, and the rounding of both.
-    let entry =
-        share * kernel::steepest(kernel.shape) / (2.0 * f64::from(kernel.table)) + ROUNDINGS;
-    let up = |value: f64, bits: i32| libm::ceil(value * libm::exp2(f64::from(bits))) as u64 + 1;
-    Bend {
-        slope_squared: up(steepest * steepest, 8),
-        half_curvature: up(share * kernel::most_curved(kernel.shape) / 2.0, 8),
-        error: up(5.0 * entry, 16) as u32,
-    }
 }
 
 /// The smallest form that gives the kernel's bits; the full machine's form where all is fitted.

@@ -7,6 +7,7 @@ pub mod formats;
 pub mod kernel;
 pub mod maxima;
 pub mod memory;
+pub mod relief;
 pub mod table;
 
 use std::sync::Arc;
@@ -24,7 +25,8 @@ use crate::word::{Complete, Interpolating, Open, Readout, Register, Shading, Sit
 
 pub use cells::Cells;
 pub use maxima::Maxima;
-pub use memory::{Memory, Relief};
+pub use memory::Memory;
+pub use relief::Relief;
 
 /// Why registers cannot be loaded.
 #[derive(Debug, thiserror::Error)]

@@ -7,7 +7,8 @@
 
 use fearless_simd::prelude::*;
 
-use super::march::{Land, Rays};
+use super::march::Land;
+use super::rays::Tile;
 use super::words::{Packed, Words};
 use crate::word::Lane as _;
 
@@ -35,16 +36,15 @@ impl Side {
     }
 }
 
+/// Cells that a beam goes on at first, as a power of two.
+const START_LEVEL: u32 = 4;
+
 /// Moves the rays of a tile, all of which stand at the same sample, on to one that no ray hits
 /// before.
 #[inline(always)]
-pub fn skip<W: Packed, S: Simd, const N: usize>(
-    land: &Land<'_, W, S>,
-    tile: &mut [Rays<W, S>; N],
-    level: u32,
-) {
+pub fn skip<W: Packed, S: Simd>(land: &Land<'_, W, S>, tile: &mut Tile<W, S>) {
     let Some(beam) = Beam::around(tile) else { return };
-    let clear = beam.clear(land, level);
+    let clear = beam.clear(land);
     for rays in tile {
         rays.skip(clear);
     }
@@ -53,7 +53,7 @@ pub fn skip<W: Packed, S: Simd, const N: usize>(
 impl Beam {
     /// The beam of the rays that walk, if any does.
     #[inline(always)]
-    fn around<W: Packed, S: Simd>(tile: &[Rays<W, S>]) -> Option<Self> {
+    fn around<W: Packed, S: Simd>(tile: &Tile<W, S>) -> Option<Self> {
         let mut any = false;
         for rays in tile {
             any |= rays.walks.any_true();
@@ -67,7 +67,8 @@ impl Beam {
 
     /// So many samples on, every sample of every ray is clear.
     #[inline(always)]
-    fn clear<W: Packed, S: Simd>(&self, land: &Land<'_, W, S>, mut level: u32) -> u32 {
+    fn clear<W: Packed, S: Simd>(&self, land: &Land<'_, W, S>) -> u32 {
+        let mut level = START_LEVEL;
         let (stepper, maxima) = (land.stepper, &land.relief.maxima);
         let point = W::Words::<S>::POINT;
         let base = if stepper.sides { stepper.base.int().into() } else { i64::MIN };
@@ -98,7 +99,7 @@ impl Beam {
 
 /// Least and greatest places of an axis, with least and greatest steps.
 #[inline(always)]
-fn extent<W: Packed, S: Simd>(tile: &[Rays<W, S>], axis: usize) -> (Side, Side) {
+fn extent<W: Packed, S: Simd>(tile: &Tile<W, S>, axis: usize) -> (Side, Side) {
     let (mut low, mut high) =
         (Side { from: i64::MAX, step: i64::MAX }, Side { from: i64::MIN, step: i64::MIN });
     for rays in tile {

@@ -11,6 +11,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
+use super::rays::{COLUMNS, PACKETS, Rays, Tile};
 use super::words::{LANES, Packed, Words};
 use super::{beam, refine, shade, solve};
 use crate::frame::Hit;
@@ -18,7 +19,7 @@ use crate::setup::maxima::NOTHING;
 use crate::setup::{Relief, TerrainUnits};
 use crate::unit::Line;
 use crate::unit::interpolator::Interpolator;
-use crate::unit::line::{Entry, Work};
+use crate::unit::line::Work;
 use crate::unit::stepper::{Place, Stepper};
 use crate::word::{Lane, World};
 
@@ -49,38 +50,6 @@ impl<W: World, S: Simd> Land<'_, W, S> {
     }
 }
 
-/// A packet of rays, component by component.
-pub struct Rays<W: Packed, S: Simd> {
-    /// The first place that has not been tested: x, y, z.
-    pub place: [W::Words<S>; 3],
-    /// The step.
-    pub step: [W::Words<S>; 3],
-    /// Index of the sample at that place.
-    pub index: u32x16<S>,
-    /// Block size that is tried next.
-    level: u32x16<S>,
-    /// Looks for a block that it does not pass.
-    pub walks: mask32x16<S>,
-    /// Stands in a cell that it may not pass.
-    pub near: mask32x16<S>,
-    /// More samples of the ray in that cell.
-    pub more: u32x16<S>,
-    /// Stands at its first sample under the surface.
-    pub hits: mask32x16<S>,
-    /// What becomes of a ray that does not hit.
-    pub outcome: i32x16<S>,
-    /// Cells outside of which the ray has left the map behind: first and last x, first and last z.
-    within: [i32x16<S>; 4],
-    /// The ray does not fall.
-    rises: mask32x16<S>,
-    /// The ray does not rise, and the map has a base.
-    falls: mask32x16<S>,
-    /// Reciprocals of the packet's longest steps in x and z.
-    inverse: [u32; 2],
-    /// The longest steps in x and z, 16 fraction bits, rounded up.
-    pub longest: [u64; 2],
-}
-
 /// Runs stepper, interpolator and shader on neighbouring lines: by packets where set-up has made
 /// maxima, else as the processor does.
 #[inline(always)]
@@ -96,204 +65,53 @@ pub fn draw<W: Packed, S: Simd>(simd: S, units: &TerrainUnits<W>, lines: &mut [L
     let land = Land { simd, stepper, surface, relief };
     run(&land, lines);
     for line in lines {
+        // Work is not counted here: trials are the processor's.
+        line.work.fill(Work::default());
         shade::run(&land, &units.shader, line);
     }
 }
 
-/// Drives `hit`, `ground_x`, `ground_z` and `steps` of neighbouring lines as the stepper does. Work
-/// is not counted here: trials are the processor's.
+/// Drives `hit`, `ground_x`, `ground_z` and `steps` of neighbouring lines as the stepper does.
 #[inline(always)]
 fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, lines: &mut [Line<W>]) {
-    let shape = Shape { lines: lines.len(), width: LANES / lines.len() };
     let columns = lines.first().map_or(0, Line::len);
-    for from in (0..columns).step_by(TILE * shape.width) {
-        let mut tile = [
-            start(land, lines, shape, from),
-            start(land, lines, shape, from + shape.width),
-            start(land, lines, shape, from + 2 * shape.width),
-            start(land, lines, shape, from + 3 * shape.width),
-        ];
-        beam::skip(land, &mut tile, 4);
-        for pair in tile.chunks_exact_mut(SIDE_BY_SIDE) {
-            march(land, pair);
-            refine::run(land, pair);
+    for from in (0..columns).step_by(PACKETS * COLUMNS) {
+        let mut tile = [Rays::idle(land.simd); PACKETS];
+        for (rays, from) in tile.iter_mut().zip((from..).step_by(COLUMNS)) {
+            rays.start(land, lines, from);
         }
-        for (packet, rays) in tile.iter().enumerate() {
-            finish(rays, lines, shape, from + packet * shape.width);
+        beam::skip(land, &mut tile);
+        march(land, &mut tile);
+        refine::run(land, &mut tile);
+        for (rays, from) in tile.iter().zip((from..).step_by(COLUMNS)) {
+            rays.finish(lines, from);
         }
     }
 }
 
 /// Takes rays to their first samples under the surface, or out of the map.
 #[inline(always)]
-fn march<W: Packed, S: Simd>(land: &Land<'_, W, S>, packets: &mut [Rays<W, S>]) {
-    while any_walks(packets) {
-        while any_walks(packets) {
-            for rays in &mut *packets {
+fn march<W: Packed, S: Simd>(land: &Land<'_, W, S>, tile: &mut Tile<W, S>) {
+    while any_walks(tile) {
+        while any_walks(tile) {
+            for rays in &mut *tile {
                 if rays.walks.any_true() {
                     trial(land, rays);
                 }
             }
         }
-        solve::run(land, packets);
+        solve::run(land, tile);
     }
 }
 
 /// Whether there is a ray that walks.
 #[inline(always)]
-fn any_walks<W: Packed, S: Simd>(packets: &[Rays<W, S>]) -> bool {
+fn any_walks<W: Packed, S: Simd>(tile: &Tile<W, S>) -> bool {
     let mut any = false;
-    for rays in packets {
+    for rays in tile {
         any |= rays.walks.any_true();
     }
     any
-}
-
-/// Packets that march side by side: a round is a long chain of operations that wait for each
-/// other, so that two take little longer than one.
-pub const SIDE_BY_SIDE: usize = 4;
-
-/// Packets that start together.
-const TILE: usize = 4;
-
-/// Block size that rays try first.
-const START_LEVEL: u32 = 0;
-
-/// Outcomes by number.
-const OUTCOMES: [Hit; 4] = [Hit::Sky, Hit::Surface, Hit::Side, Hit::Far];
-
-/// How the pixels of a packet lie.
-#[derive(Clone, Copy)]
-struct Shape {
-    lines: usize,
-    width: usize,
-}
-
-impl Shape {
-    /// Line and column of a lane.
-    #[inline(always)]
-    fn pixel(self, lane: usize) -> (usize, usize) {
-        (lane / self.width, lane % self.width)
-    }
-}
-
-/// The rays of a packet at their first samples; lanes without a ray are done.
-#[inline(always)]
-fn start<W: Packed, S: Simd>(
-    land: &Land<'_, W, S>,
-    lines: &[Line<W>],
-    shape: Shape,
-    from: usize,
-) -> Rays<W, S> {
-    let (simd, stepper) = (land.simd, land.stepper);
-    let mut view = [[W::Int::default(); LANES]; 3];
-    let mut ground = [[W::Int::default(); LANES]; 2];
-    let mut met = [0; LANES];
-    let mut outcome = [Hit::Sky as i32; LANES];
-    for (row, line) in lines.iter().enumerate() {
-        for column in 0..shape.width.min(line.len().saturating_sub(from)) {
-            let (lane, i) = (row * shape.width + column, from + column);
-            view[0][lane] = line.view_x[i].int();
-            view[1][lane] = line.view_y[i].int();
-            view[2][lane] = line.view_z[i].int();
-            ground[0][lane] = line.ground_x[i].int();
-            ground[1][lane] = line.ground_z[i].int();
-            let entry = if stepper.from_eye { Entry::Met } else { line.entry[i] };
-            met[lane] = -i32::from(entry == Entry::Met);
-            outcome[lane] = if entry == Entry::Far { stepper.beyond } else { Hit::Sky } as i32;
-        }
-    }
-    let mask = |flag: bool| mask32x16::simd_from(simd, flag);
-    let number = |number: i32| i32x16::simd_from(simd, number);
-    let splat = |word: W::Int| W::Words::splat(simd, word);
-    let met = mask32x16::simd_from(simd, met);
-
-    // The step, as `Stepper::step`: equation 20.
-    let [x, y, z] = view;
-    let (x, y, z) = (W::Words::load(simd, x), W::Words::load(simd, y), W::Words::load(simd, z));
-    // The leading one is counted from the ground's point, so the points' difference cancels out.
-    let places = W::Words::leading_one([x, y, z]) + (1 + stepper.fineness as i32);
-    let (dx, dy, dz) = (x.scaled_down(places), y.scaled_down(places), z.scaled_down(places));
-    let place = if stepper.from_eye {
-        let eye = stepper.eye();
-        [splat(eye.x.int()), splat(eye.y.int()), splat(eye.z.int())]
-    } else {
-        let [x, z] = ground;
-        [W::Words::load(simd, x), splat(stepper.top.int()), W::Words::load(simd, z)]
-    };
-
-    let none = splat(W::Int::default());
-    let (west, east) = (!none.less(dx), !dx.less(none));
-    let (north, south) = (!none.less(dz), !dz.less(none));
-    let (columns, rows) = stepper.extent.unwrap_or((0, 0));
-    let ends = mask(stepper.extent.is_some());
-    let within = [
-        (ends & west).select(number(0), number(i32::MIN)),
-        (ends & east).select(number(columns - 2), number(i32::MAX)),
-        (ends & north).select(number(0), number(i32::MIN)),
-        (ends & south).select(number(rows - 2), number(i32::MAX)),
-    ];
-    let longest = [longest::<W, S>(dx, met), longest::<W, S>(dz, met)];
-    let mut rays = Rays {
-        place,
-        step: [dx, dy, dz],
-        index: u32x16::simd_from(simd, 0),
-        level: u32x16::simd_from(simd, START_LEVEL.min(land.relief.maxima.top())),
-        walks: met,
-        near: mask(false),
-        more: u32x16::simd_from(simd, 0),
-        hits: mask(false),
-        outcome: i32x16::simd_from(simd, outcome),
-        within,
-        rises: !dy.less(none),
-        falls: mask(stepper.sides) & !none.less(dy),
-        inverse: longest.map(inverse::<W>),
-        // 16 fraction bits.
-        longest: longest.map(|step| u64::from(step >> (W::Ground::FRACTION - 16)) + 1),
-    };
-    // A ray may be over before its first sample, or have none.
-    let fallen = rays.falls & place[1].less(splat(stepper.base.int()));
-    rays.walks &= !fallen;
-    end_walks(land, &mut rays);
-    if stepper.last == 0 {
-        rays.outcome = rays.walks.select(number(Hit::Far as i32), rays.outcome);
-        rays.walks = mask(false);
-    }
-    rays.advance(u32x16::simd_from(simd, 1));
-    rays
-}
-
-/// The longest of some steps, in bits.
-#[inline(always)]
-fn longest<W: Packed, S: Simd>(steps: W::Words<S>, of: mask32x16<S>) -> u32 {
-    let lengths = steps.coarse_magnitude(0);
-    let lengths = of.select(lengths, u32x16::simd_from(lengths.token(), 0)).to_array();
-    lengths.into_iter().fold(0, u32::max)
-}
-
-/// `floor(2^(FRACTION + 20) / step)`, at most 2^26.
-#[inline(always)]
-fn inverse<W: Packed>(step: u32) -> u32 {
-    ((1_u64 << (W::Ground::FRACTION + 20)) / u64::from(step.max(1))).min(1 << 26) as u32
-}
-
-impl<W: Packed, S: Simd> Rays<W, S> {
-    /// Moves the rays that walk so many samples on.
-    #[inline(always)]
-    pub fn skip(&mut self, steps: u32) {
-        let simd = self.index.token();
-        let none = u32x16::simd_from(simd, 0);
-        self.advance(self.walks.select(u32x16::simd_from(simd, steps), none));
-    }
-
-    /// Moves rays so many samples on.
-    #[inline(always)]
-    pub fn advance(&mut self, steps: u32x16<S>) {
-        for (place, step) in self.place.iter_mut().zip(self.step) {
-            *place = place.after(step, steps);
-        }
-        self.index += steps;
-    }
 }
 
 /// One block of every walking ray: passed, or looked at more closely.
@@ -362,26 +180,6 @@ pub fn end_walks<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S
 
 /// A place from its bits.
 #[inline(always)]
-pub fn place<W: Packed>(x: W::Int, y: W::Int, z: W::Int) -> Place<W> {
+fn place<W: Packed>(x: W::Int, y: W::Int, z: W::Int) -> Place<W> {
     Place { x: W::Ground::of_int(x), y: W::Height::of_int(y), z: W::Ground::of_int(z) }
-}
-
-/// Puts the packet's ends on the wires.
-#[inline(always)]
-fn finish<W: Packed, S: Simd>(rays: &Rays<W, S>, lines: &mut [Line<W>], shape: Shape, from: usize) {
-    let [x, _, z] = rays.place.map(Words::store);
-    let (index, outcome) = (rays.index.to_array(), rays.outcome.to_array());
-    for lane in 0..LANES {
-        let (row, column) = shape.pixel(lane);
-        let i = from + column;
-        if row >= shape.lines || i >= lines[row].len() {
-            continue;
-        }
-        let line = &mut lines[row];
-        line.hit[i] = OUTCOMES[outcome[lane] as usize & 3];
-        line.steps[i] = index[lane];
-        line.work[i] = Work::default();
-        line.ground_x[i] = W::Ground::of_int(x[lane]);
-        line.ground_z[i] = W::Ground::of_int(z[lane]);
-    }
 }

@@ -4,7 +4,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::heights::{Nodes, heights, nodes};
-use super::march::{Land, Rays, SIDE_BY_SIDE};
+use super::march::Land;
+use super::rays::{PACKETS, Rays, Tile};
 use super::words::{Packed, Words};
 use crate::frame::Hit;
 use crate::unit::stepper::HalvingRule;
@@ -12,10 +13,10 @@ use crate::word::Lane as _;
 
 /// Moves rays that hit from their first sample under the surface to the place of the hit.
 #[inline(always)]
-pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, packets: &mut [Rays<W, S>]) {
-    let mut searches = [None; SIDE_BY_SIDE];
+pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, tile: &mut Tile<W, S>) {
+    let mut searches = [None; PACKETS];
     let mut most = 0;
-    for (search, rays) in searches.iter_mut().zip(&*packets) {
+    for (search, rays) in searches.iter_mut().zip(&*tile) {
         if rays.hits.any_true() {
             let (times, most_here) = halvings(land, rays);
             *search = Some(Refinement::new(land, rays, times));
@@ -23,13 +24,13 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, packets: &mut [Rays<W, S>]
         }
     }
     for halving in 1..=most {
-        for (search, rays) in searches.iter_mut().zip(&*packets) {
+        for (search, rays) in searches.iter_mut().zip(&*tile) {
             if let Some(search) = search {
                 search.halve(land, rays, halving);
             }
         }
     }
-    for (search, rays) in searches.iter().zip(packets) {
+    for (search, rays) in searches.iter().zip(tile) {
         if let Some(search) = search {
             search.end(land, rays);
         }

@@ -10,7 +10,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::heights::{Nodes, heights, nodes};
-use super::march::{Land, Rays, SIDE_BY_SIDE, end_walks};
+use super::march::{Land, end_walks};
+use super::rays::{PACKETS, Rays, Tile};
 use super::words::{Packed, Words};
 use crate::unit::interpolator::Form;
 
@@ -25,16 +26,16 @@ const MOST_STEPS: u32 = 1 << 6;
 
 /// Rays that stand in a cell walk on behind it, or hit.
 #[inline(always)]
-pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, packets: &mut [Rays<W, S>]) {
-    let mut searches = [None; SIDE_BY_SIDE];
-    for (search, rays) in searches.iter_mut().zip(&*packets) {
+pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, tile: &mut Tile<W, S>) {
+    let mut searches = [None; PACKETS];
+    for (search, rays) in searches.iter_mut().zip(&*tile) {
         if rays.near.any_true() {
             *search = Some(Search::new(land, rays));
         }
     }
     loop {
         let mut any = false;
-        for (search, rays) in searches.iter_mut().zip(&*packets) {
+        for (search, rays) in searches.iter_mut().zip(&*tile) {
             if let Some(search) = search
                 && search.active.any_true()
             {
@@ -46,7 +47,7 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, packets: &mut [Rays<W, S>]
             break;
         }
     }
-    for (search, rays) in searches.iter().zip(packets) {
+    for (search, rays) in searches.iter().zip(tile) {
         if let Some(search) = search {
             search.end(land, rays);
         }

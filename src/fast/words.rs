@@ -106,8 +106,6 @@ pub trait Words<S: Simd>: Copy + Add<Output = Self> + Sub<Output = Self> {
     fn reduced(self, places: u32x16<S>) -> i32x16<S>;
     /// `self / 2^places` per lane, places of either sign, rounded to nearest, ties upward.
     fn scaled_down(self, places: i32x16<S>) -> Self;
-    /// The words where they have 32 bits.
-    fn low(self) -> i32x16<S>;
     /// Words of 32 bits.
     fn widened(words: i32x16<S>) -> Self;
 }
@@ -238,10 +236,6 @@ impl<S: Simd> Words<S> for i32x16<S> {
     fn scaled_down(self, places: i32x16<S>) -> Self {
         let down = self.reduced(places.max(1).bitcast());
         places.simd_gt(0).select(down, self << (-places).max(0))
-    }
-    #[inline(always)]
-    fn low(self) -> i32x16<S> {
-        self
     }
     #[inline(always)]
     fn widened(words: i32x16<S>) -> Self {
@@ -479,10 +473,6 @@ impl<S: Simd> Words<S> for Pair<S> {
     fn scaled_down(self, places: i32x16<S>) -> Self {
         let (low, high) = places.widen();
         Self(scaled_down(self.0, low), scaled_down(self.1, high))
-    }
-    #[inline(always)]
-    fn low(self) -> i32x16<S> {
-        self.0.narrow(self.1)
     }
     #[inline(always)]
     fn widened(words: i32x16<S>) -> Self {

@@ -163,6 +163,18 @@ struct Slack<S: Simd> {
     error: i32x16<S>,
 }
 
+/// Magnitude of a difference of heights in steps of gaps, rounded up.
+#[inline(always)]
+fn rise<W: Packed, S: Simd>(difference: W::Words<S>) -> u32x16<S> {
+    difference.coarse_magnitude(gap_places::<W, S>()) + 1
+}
+
+/// Held to what a sum of four does not overflow.
+#[inline(always)]
+fn signed<S: Simd>(bits: u32x16<S>) -> i32x16<S> {
+    bits.min(i32::MAX as u32 / 4).bitcast()
+}
+
 /// A(1) is held to this; beyond it nothing counts as straight.
 const MOST_BEND: i32 = i32::MAX >> (2 * MOST_STEPS.ilog2());
 
@@ -175,13 +187,10 @@ impl<S: Simd> Slack<S> {
         let twist = up(x * z * straight.slope_squared);
         let bend_x = up(x * x * straight.half_curvature);
         let bend_z = up(z * z * straight.half_curvature);
-        let rise = |from: W::Words<S>, to: W::Words<S>| {
-            (to - from).coarse_magnitude(gap_places::<W, S>()) + 1
-        };
         let [h1, h2, h3, h4] = *nodes;
-        let rise_x = rise(h1, h3).max(rise(h2, h4));
-        let rise_z = rise(h1, h2).max(rise(h3, h4));
-        let crossed = rise(h1 - h2, h3 - h4);
+        let rise_x = rise::<W, S>(h1 - h3).max(rise::<W, S>(h2 - h4));
+        let rise_z = rise::<W, S>(h1 - h2).max(rise::<W, S>(h3 - h4));
+        let crossed = rise::<W, S>((h1 - h2) - (h3 - h4));
         let factor = |factor: u32| u32x16::simd_from(land.simd, factor);
         let (low, high) = crossed.widening_mul(factor(twist));
         let (low_x, high_x) = rise_x.widening_mul(factor(bend_x));
@@ -189,7 +198,6 @@ impl<S: Simd> Slack<S> {
         let bend = ((low + low_x + low_z) >> 16).saturating_narrow((high + high_x + high_z) >> 16);
         let (low, high) = (rise_x + rise_z).widening_mul(factor(straight.error));
         let error = (low >> 16).saturating_narrow(high >> 16);
-        let signed = |bits: u32x16<S>| bits.min(i32::MAX as u32 / 4).bitcast::<i32x16<S>>();
         Self { bend: signed(bend) + 1, error: signed(error) + 8 }
     }
 

@@ -1,6 +1,7 @@
 //! The skip pyramid against a maximum over its definition's window.
 
 use proptest::prelude::*;
+use terraline::setup::maxima::{Maxima, NOTHING};
 use terraline::unit::height_memory::{Edge, HeightMemory};
 use terraline::unit::pyramid::{Pyramid, cell_maxima};
 
@@ -50,6 +51,17 @@ fn window(block: i32, level: u32, r: i32) -> (i32, i32) {
 fn reaches_a_cell(block: i32, level: u32, nodes: i32) -> bool {
     let (first, after_last) = ((block - 1) << level, (block + 2) << level);
     first.max(0) < after_last.min(nodes - 1)
+}
+
+/// The highest node of a box of cells by looking at all of them; `None` where it holds none.
+fn highest_of_box(map: &Map, x: (i64, i64), z: (i64, i64), edge: Edge, r: i32) -> Option<i32> {
+    let nodes = |(first, last): (i64, i64), cells: i32| {
+        let (first, last) = (first as i32, last as i32);
+        let (first, last) =
+            if edge == Edge::Ends { (first.max(0), last.min(cells - 1)) } else { (first, last) };
+        (first <= last).then_some((first - r, last + 1 + r))
+    };
+    map.highest(nodes(x, map.columns - 1)?, nodes(z, map.rows - 1)?, edge)
 }
 
 fn map() -> impl Strategy<Value = Map> {
@@ -150,6 +162,28 @@ proptest! {
                     check(&map, edge, r)?;
                 }
             }
+        }
+    }
+
+    #[test]
+    fn no_cell_of_a_box_is_higher_than_the_bound_around_it(
+        map in map(),
+        x in (-100..100_i64, prop_oneof![Just(0), 0..10_i64, 0..300_i64]),
+        z in (-100..100_i64, prop_oneof![Just(0), 0..10_i64, 0..300_i64]),
+        ends in any::<bool>(),
+        r in 0..2_i32,
+    ) {
+        let edge = if ends { Edge::Ends } else { Edge::Clamps };
+        prop_assume!(!ends || map.columns > 1 && map.rows > 1);
+        let nodes = map.nodes.iter().map(|&node| node as i16).collect();
+        let heights = HeightMemory::new(nodes, map.columns as usize, map.rows as usize, edge);
+        let maxima = Maxima::new(&heights, r, 0);
+        let (x, z) = ((x.0, x.0 + x.1), (z.0, z.0 + z.1));
+        let bound = i32::from(maxima.around(x, z));
+        let highest = highest_of_box(&map, x, z, edge, r);
+        prop_assert!(Some(bound) >= highest, "{bound} around {x:?}, {z:?}, not {highest:?}");
+        if ends && x.0 == x.1 && z.0 == z.1 {
+            prop_assert_eq!(bound, highest.unwrap_or(NOTHING.into()), "cell {}, {}", x.0, z.0);
         }
     }
 

@@ -31,8 +31,8 @@ struct Side {
 
 impl Side {
     #[inline(always)]
-    fn at(self, k: u32) -> i64 {
-        self.from + i64::from(k) * self.step
+    fn at(self, k: i64) -> i64 {
+        self.from + k * self.step
     }
 }
 
@@ -68,30 +68,26 @@ impl Beam {
     /// So many samples on, every sample of every ray is clear.
     #[inline(always)]
     fn clear<W: Packed, S: Simd>(&self, land: &Land<'_, W, S>) -> u32 {
-        let mut level = START_LEVEL;
         let (stepper, maxima) = (land.stepper, &land.relief.maxima);
         let point = W::Words::<S>::POINT;
+        // Beside the map, a ray under its base is over: a beam does not pass there.
         let base = if stepper.sides { stepper.base.int().into() } else { i64::MIN };
-        let last = stepper.last.saturating_sub(1);
+        let last = i64::from(stepper.last) - 1;
+        let mut level = START_LEVEL;
         let mut k = 0;
         loop {
             let next = (k + (1 << (level + stepper.fineness))).min(last);
             let lowest = self.floor.at(k).min(self.floor.at(next));
-            let side = |axis: usize| {
+            let [x, z] = [0, 1].map(|axis: usize| {
                 let (low, high) = (self.low[axis], self.high[axis]);
-                let low = low.at(k).min(low.at(next)) >> point;
-                let high = high.at(k).max(high.at(next)) >> point;
-                (low as i32, high as i32)
-            };
-            let bound = i64::from(maxima.around(side(0), side(1)));
-            let clear = lowest >= base && lowest >> maxima.places() >= bound;
-            if clear && next > k {
-                k = next;
-                level += 1;
-            } else if level > 0 && !clear {
-                level -= 1;
-            } else {
-                return k;
+                (low.at(k).min(low.at(next)) >> point, high.at(k).max(high.at(next)) >> point)
+            });
+            let clear =
+                lowest >= base && lowest >> maxima.places() >= i64::from(maxima.around(x, z));
+            match (clear, level) {
+                (true, _) if next > k => (k, level) = (next, level + 1),
+                (false, 1..) => level -= 1,
+                _ => return k as u32,
             }
         }
     }

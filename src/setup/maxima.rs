@@ -30,6 +30,7 @@ pub const NOTHING: i16 = i16::MIN;
 const LEVELS: u32 = 28;
 
 /// Row of a level's first block.
+#[inline(always)]
 fn first_row(rows: usize, level: u32) -> usize {
     2 * rows - ((2 * rows) >> level) + level as usize
 }
@@ -75,27 +76,30 @@ impl Maxima {
     }
 
     /// At least the highest node of a box of cells, given by its first and last cell in x and z.
-    #[inline(always)]
-    pub fn around(&self, x: (i32, i32), z: (i32, i32)) -> i16 {
+    pub fn around(&self, x: (i64, i64), z: (i64, i64)) -> i16 {
         // Blocks so large that the box lies in two of them at most, each way.
-        let extent = (x.1 - x.0).max(z.1 - z.0) as u32;
-        let level = (u32::BITS - extent.leading_zeros()).min(self.top);
-        let block = |cell: i32, last: i32| {
-            let cell = if self.ends { cell } else { cell.clamp(0, last) };
-            cell >> level
-        };
-        let (last_i, last_j) = (self.cells.0 - 1, self.cells.1 - 1);
-        let first_row = 2 * self.rows - ((2 * self.rows) >> level) + level as i32;
+        let extent = (x.1 - x.0).max(z.1 - z.0);
+        let level = i64::BITS - extent.leading_zeros();
+        if level > self.top {
+            return self.bounds[first_row(self.rows as usize, self.top) * self.stride as usize];
+        }
+        let (last_i, last_j) = (i64::from(self.cells.0) - 1, i64::from(self.cells.1) - 1);
+        let first_row = first_row(self.rows as usize, level) as i64;
         let mut most = NOTHING;
-        for j in [block(z.0, last_j), block(z.1, last_j)] {
-            for i in [block(x.0, last_i), block(x.1, last_i)] {
-                if (i as u32) <= (last_i >> level) as u32 && (j as u32) <= (last_j >> level) as u32
-                {
-                    let address = (first_row + j) * self.stride + i;
+        for j in [self.block(z.0, last_j, level), self.block(z.1, last_j, level)] {
+            for i in [self.block(x.0, last_i, level), self.block(x.1, last_i, level)] {
+                if (0..=last_i >> level).contains(&i) && (0..=last_j >> level).contains(&j) {
+                    let address = (first_row + j) * i64::from(self.stride) + i;
                     most = most.max(self.bounds[address as usize]);
                 }
             }
         }
         most
+    }
+
+    /// The block that a cell lies in, by row or column; beyond edges that go on, that of the edge.
+    #[inline(always)]
+    fn block(&self, cell: i64, last: i64, level: u32) -> i64 {
+        (if self.ends { cell } else { cell.clamp(0, last) }) >> level
     }
 }

@@ -26,7 +26,6 @@ use crate::readout::FrameBuilder;
 use crate::setup::{Back, Setup};
 use crate::unit::Line;
 use crate::unit::divider::Method;
-use crate::unit::line::Entry;
 use crate::word::Complete;
 use enter::Enterable;
 use words::Packed;
@@ -77,9 +76,8 @@ fn project<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
         line.number = number;
         let start = enter::line_start(&setup.projector, number);
         enter::fill(&setup.projector, &start, line);
-        match &setup.divider {
-            Some(divider) => divider.run(line, Method::Direct),
-            None => line.entry.fill(Entry::Met),
+        if let Some(divider) = &setup.divider {
+            divider.run(line, Method::Direct);
         }
     }
 }

@@ -94,7 +94,10 @@ impl<W: Packed, S: Simd> Rays<W, S> {
         let mut ground = [[W::Int::default(); LANES]; 2];
         for (row, line) in lines.iter().enumerate() {
             let to = row * COLUMNS;
-            load(&line.entry, from, &mut entries, to, |entry| entry as i32);
+            load(&line.entry, from, &mut entries, to, |entry| {
+                // A full machine's divider speaks of rays that start at the eye, too.
+                (if stepper.from_eye { Entry::Met } else { entry }) as i32
+            });
             load(&line.view_x, from, &mut view[0], to, Lane::int);
             load(&line.view_y, from, &mut view[1], to, Lane::int);
             load(&line.view_z, from, &mut view[2], to, Lane::int);

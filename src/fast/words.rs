@@ -221,6 +221,9 @@ impl<S: Simd> Words<S> for i32x16<S> {
     }
     #[inline(always)]
     fn rescaled(self, exponent: i32) -> Self {
+        if exponent >= 32 {
+            return Self::simd_from(self.token(), 0);
+        }
         if exponent >= 0 {
             return self << exponent as u32;
         }
@@ -455,6 +458,9 @@ impl<S: Simd> Words<S> for Pair<S> {
     }
     #[inline(always)]
     fn rescaled(self, exponent: i32) -> Self {
+        if exponent >= 64 {
+            return Self::splat(self.0.token(), 0);
+        }
         if exponent >= 0 {
             return Self(self.0 << exponent as u32, self.1 << exponent as u32);
         }

@@ -161,7 +161,8 @@ macro_rules! stock_words {
                         let places = (places as u32).min($int::BITS) - 1;
                         (bits >> places >> 1) + (bits >> places & 1)
                     } else {
-                        bits << (-places) as u32
+                        // Nothing is left of bits that are shifted out of the word.
+                        bits.checked_shl((-places) as u32).unwrap_or(0)
                     })
                 }
             }

@@ -32,7 +32,7 @@ fn scenes() -> Vec<(String, Scene)> {
             scene.camera.position = DVec3::new(6.0 * cell.0, 1.5 * high, -cell.1);
         });
     }
-    for scale in [1e-9, 1e-6, 1e3, 1e5, 1e7] {
+    for scale in [1e-25, 1e-14, 1e-9, 1e-6, 1e3, 1e5, 1e7] {
         add(format!("relief times {scale}"), &|scene| {
             terrain(scene).scale = scale;
             scene.camera.position.y = 12.0 * scale + 3.0;

@@ -18,9 +18,9 @@ use proptest::test_runner::TestRunner;
 use tempfile::TempDir;
 use terraline::engine::{FixedWorld, draw_oracle};
 use terraline::frame::Frame;
-use terraline::plan::Plan;
+use terraline::plan::{Ground, Plan};
 use terraline::scene::file::{Document, parse};
-use terraline::scene::{Scene, SceneError, Surface, builtin, overlook, write};
+use terraline::scene::{Scene, SceneError, StepperMode, Surface, builtin, overlook, write};
 use terraline::study::cost::Measure;
 use terraline::study::error::{self, Sample};
 use terraline::study::explain::explain;
@@ -39,6 +39,9 @@ const MOST_BYTES: usize = 256 << 20;
 
 /// Maps of more nodes are read but not drawn.
 const MOST_NODES: usize = 1 << 20;
+
+/// Plain walks of more steps are planned but not drawn.
+const MOST_STEPS: u32 = 1 << 20;
 
 /// Maps that the scenes name.
 static FOLDER: LazyLock<TempDir> = LazyLock::new(|| {
@@ -189,14 +192,25 @@ fn draw(mut scene: Scene, stages: &AtomicUsize) -> Result<(), Stop> {
     {
         return Ok(());
     }
+    // Rays that hardly move take all their steps where none is skipped.
+    let (columns, lines) = match scene.stepper.mode {
+        StepperMode::Plain => (2, 2),
+        StepperMode::Skipping => (16, 12),
+    };
     for screen in &mut scene.screens {
-        *screen = screen.resized(16, 12);
+        *screen = screen.resized(columns, lines);
     }
     let last = scene.screens.last().map(|screen| screen.name.clone());
     for (screen, full) in [(None, false), (last.as_deref(), true)] {
         let plan = Plan::new(&scene, screen, full).map_err(refused)?;
         let world = FixedWorld::of(&scene, &plan).map_err(refused)?;
         stages.fetch_max(2, Relaxed);
+        if let Ground::Terrain(walk) = &plan.ground
+            && scene.stepper.mode == StepperMode::Plain
+            && walk.last > MOST_STEPS
+        {
+            return Ok(());
+        }
         // Registers that saturate are the processor's alone.
         let frame = if world.wraps() {
             let (frame, fast) = both(&scene, &plan).map_err(refused)?;
@@ -224,7 +238,7 @@ fn study(scene: &Scene, plan: &Plan, world: &FixedWorld, frame: &Frame) -> Resul
     }
     let sample = Sample::strips(plan, 3, scene.seed);
     let errors = error::pixels(scene, plan, world, &sample).map_err(|error| wrong(&error))?;
-    let explanation = explain(scene, plan, world, 7, 5).map_err(|error| wrong(&error))?;
+    let explanation = explain(scene, plan, world, 1, 1).map_err(|error| wrong(&error))?;
     let measure = Measure { scene, plan, cycles: &sample, operations: &sample };
     let cost = world.run(measure).map_err(|error| wrong(&error))?;
     if errors.len() != sample.len() || explanation.rows.is_empty() || cost.cycles == 0 {

@@ -227,7 +227,8 @@ impl Render {
                 let Planned { scene, plan, world, .. } = planned;
                 let pixels = report::while_waiting("asking the oracle", || {
                     error::pixels(scene, plan, world, &Sample::all(plan))
-                })?;
+                })
+                .map_err(|error| planned.refused(&error))?;
                 let errors: Vec<f64> = pixels.iter().map(|p| p.total_px).collect();
                 let silhouettes: Vec<bool> =
                     pixels.iter().map(|p| p.sheet == Sheet::Silhouette).collect();

@@ -21,13 +21,14 @@ use terraline::frame::Frame;
 use terraline::plan::{Ground, Plan};
 use terraline::scene::file::{Document, parse};
 use terraline::scene::{Scene, SceneError, StepperMode, Surface, builtin, overlook, write};
+use terraline::setup::SetupError;
 use terraline::study::cost::Measure;
 use terraline::study::error::{self, Sample};
 use terraline::study::explain::explain;
 
 use super::damage::damages;
 use super::grids::grids;
-use super::support::{both, difference, draw_in_real, drawn};
+use super::support::{both, difference, draw_in_real, drawn, is_under_ground};
 use super::wild::{options, scenes};
 use super::{EVERY_KEY, PEAK};
 
@@ -229,7 +230,14 @@ fn draw(mut scene: Scene, stages: &AtomicUsize) -> Result<(), Stop> {
 
 /// What the commands do with a scene that can be drawn: that must work.
 fn study(scene: &Scene, plan: &Plan, world: &FixedWorld, frame: &Frame) -> Result<(), Stop> {
-    let wrong = |error: &dyn std::fmt::Display| Stop::Wrong(format!("drawn, but {error}"));
+    let wrong = |error: &SetupError| {
+        // In a coarse world the ground may be lower than it is.
+        if is_under_ground(error) {
+            refused(error)
+        } else {
+            Stop::Wrong(format!("drawn, but {error}"))
+        }
+    };
     let pixels = frame.hit.len();
     let real = draw_in_real(scene, plan).map_err(|error| wrong(&error))?;
     let oracle = draw_oracle(scene, plan);

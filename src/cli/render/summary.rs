@@ -83,11 +83,13 @@ impl Render {
         let all = Sample::all(plan);
         // The processor's own frame gives the cycles of all its lines.
         let cycles = if self.engine == Engine::Processor { &all } else { &lines };
-        let cost = world.run(Measure { scene, plan, cycles, operations: &lines })?;
+        let refused = |error| planned.refused(&error);
+        let cost =
+            world.run(Measure { scene, plan, cycles, operations: &lines }).map_err(refused)?;
         let fixed = matches!(self.engine, Engine::Fast | Engine::Processor);
         let errors = if fixed && self.sample > 0 {
             let sample = Sample::strips(plan, self.sample, scene.seed);
-            let pixels = error::pixels(scene, plan, world, &sample)?;
+            let pixels = error::pixels(scene, plan, world, &sample).map_err(refused)?;
             Some(ErrorReport::new(&sample, &pixels, scene.unit_m))
         } else {
             None

@@ -68,16 +68,63 @@ impl<'a> Reader<'a> {
 /// A frame under construction, line by line.
 #[derive(Debug)]
 pub struct FrameBuilder<'a> {
-    reader: Reader<'a>,
-    frame: Frame,
+    columns: usize,
+    lines: usize,
+    color: Vec<[u8; 3]>,
+    hit: Vec<Hit>,
+    buffers: Option<BufferBuilder<'a>>,
 }
 
 impl<'a> FrameBuilder<'a> {
     /// An empty frame of a plan's size.
     pub fn new(plan: &'a Plan, lines: usize, buffers: bool, trials: bool) -> Self {
         let columns = plan.geometry.columns as usize;
-        let pixels = columns * lines;
-        let buffers = buffers.then(|| Buffers {
+        Self {
+            columns,
+            lines,
+            color: Vec::with_capacity(columns * lines),
+            hit: Vec::with_capacity(columns * lines),
+            buffers: buffers.then(|| BufferBuilder::new(plan, lines, trials)),
+        }
+    }
+
+    /// The next line.
+    pub fn push<W: Open>(&mut self, line: &Line<W>) {
+        self.color.extend_from_slice(&line.color);
+        self.hit.extend_from_slice(&line.hit);
+        if let Some(buffers) = &mut self.buffers {
+            buffers.push(line);
+        }
+    }
+
+    /// Another builder's lines after these.
+    pub fn append(&mut self, other: FrameBuilder<'_>) {
+        self.color.extend(other.color);
+        self.hit.extend(other.hit);
+        if let (Some(to), Some(from)) = (&mut self.buffers, other.buffers) {
+            to.append(from);
+        }
+    }
+
+    /// The frame.
+    pub fn finish(self) -> Frame {
+        let Self { columns, lines, color, hit, buffers } = self;
+        Frame { columns, lines, color, hit, buffers: buffers.map(BufferBuilder::finish) }
+    }
+}
+
+/// The quantities behind a frame's colours under construction, line by line.
+#[derive(Debug)]
+pub struct BufferBuilder<'a> {
+    reader: Reader<'a>,
+    buffers: Buffers,
+}
+
+impl<'a> BufferBuilder<'a> {
+    /// Empty buffers for so many lines of a plan's width.
+    pub fn new(plan: &'a Plan, lines: usize, trials: bool) -> Self {
+        let pixels = plan.geometry.columns as usize * lines;
+        let buffers = Buffers {
             lambda: Vec::with_capacity(pixels),
             ground_x: Vec::with_capacity(pixels),
             ground_z: Vec::with_capacity(pixels),
@@ -85,22 +132,13 @@ impl<'a> FrameBuilder<'a> {
             normal: Vec::with_capacity(pixels),
             steps: Vec::with_capacity(pixels),
             trials: trials.then(|| Vec::with_capacity(pixels)),
-        });
-        let frame = Frame {
-            columns,
-            lines,
-            color: Vec::with_capacity(pixels),
-            hit: Vec::with_capacity(pixels),
-            buffers,
         };
-        Self { reader: Reader::new(plan), frame }
+        Self { reader: Reader::new(plan), buffers }
     }
 
     /// The next line.
     pub fn push<W: Open>(&mut self, line: &Line<W>) {
-        self.frame.color.extend_from_slice(&line.color);
-        self.frame.hit.extend_from_slice(&line.hit);
-        let Some(buffers) = &mut self.frame.buffers else { return };
+        let buffers = &mut self.buffers;
         for i in 0..line.len() {
             let pixel = self.reader.pixel(line, i).unwrap_or(PixelReadout {
                 lambda: f64::NAN,
@@ -121,24 +159,21 @@ impl<'a> FrameBuilder<'a> {
     }
 
     /// Another builder's lines after these.
-    pub fn append(&mut self, other: FrameBuilder<'_>) {
-        self.frame.color.extend(other.frame.color);
-        self.frame.hit.extend(other.frame.hit);
-        if let (Some(to), Some(from)) = (&mut self.frame.buffers, other.frame.buffers) {
-            to.lambda.extend(from.lambda);
-            to.ground_x.extend(from.ground_x);
-            to.ground_z.extend(from.ground_z);
-            to.height.extend(from.height);
-            to.normal.extend(from.normal);
-            to.steps.extend(from.steps);
-            if let (Some(to), Some(from)) = (&mut to.trials, from.trials) {
-                to.extend(from);
-            }
+    pub fn append(&mut self, other: BufferBuilder<'_>) {
+        let (to, from) = (&mut self.buffers, other.buffers);
+        to.lambda.extend(from.lambda);
+        to.ground_x.extend(from.ground_x);
+        to.ground_z.extend(from.ground_z);
+        to.height.extend(from.height);
+        to.normal.extend(from.normal);
+        to.steps.extend(from.steps);
+        if let (Some(to), Some(from)) = (&mut to.trials, from.trials) {
+            to.extend(from);
         }
     }
 
-    /// The frame.
-    pub fn finish(self) -> Frame {
-        self.frame
+    /// The buffers.
+    pub fn finish(self) -> Buffers {
+        self.buffers
     }
 }

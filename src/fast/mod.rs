@@ -20,9 +20,9 @@ mod words;
 use fearless_simd::{Level, Simd as _, dispatch};
 use rayon::prelude::*;
 
-use crate::frame::Frame;
+use crate::frame::{Frame, Hit};
 use crate::plan::Plan;
-use crate::readout::FrameBuilder;
+use crate::readout::BufferBuilder;
 use crate::setup::{Back, Setup};
 use crate::unit::Line;
 use crate::unit::divider::Method;
@@ -32,7 +32,7 @@ use words::Packed;
 
 /// Lines that one task draws: enough to amortise its wires, few enough to balance two threads
 /// between sky and ground.
-const BAND: u32 = 16;
+const BAND: usize = 16;
 
 /// Neighbouring lines whose rays walk together.
 pub const GROUP: usize = 4;
@@ -94,26 +94,42 @@ pub fn render_and_look<W: Complete + Enterable>(
     buffers: bool,
     look: &(impl Fn(&Line<W>) + Sync),
 ) -> Frame {
-    let bands: Vec<FrameBuilder<'_>> = (0..setup.lines.div_ceil(BAND))
-        .into_par_iter()
+    let (columns, lines) = (setup.columns as usize, setup.lines as usize);
+    let mut color = vec![[0; 3]; columns * lines];
+    let mut hit = vec![Hit::Sky; columns * lines];
+    let band = BAND * columns;
+    // Every band writes its own part of the picture.
+    let parts: Vec<Option<BufferBuilder<'_>>> = color
+        .par_chunks_mut(band)
+        .zip(hit.par_chunks_mut(band))
+        .enumerate()
         .map_init(
-            || vec![Line::new(&setup.world, 0..setup.columns); BAND as usize],
-            |lines, band| {
-                let first = band * BAND;
-                let lines = &mut lines[..(setup.lines - first).min(BAND) as usize];
-                run_lines(setup, first, lines);
-                let mut builder = FrameBuilder::new(plan, lines.len(), buffers, false);
-                for line in lines {
-                    look(line);
-                    builder.push(line);
+            || vec![Line::new(&setup.world, 0..setup.columns); GROUP],
+            |wires, (band, (color, hit))| {
+                let mut part = buffers.then(|| BufferBuilder::new(plan, BAND, false));
+                let groups = color.chunks_mut(GROUP * columns).zip(hit.chunks_mut(GROUP * columns));
+                for (group, (color, hit)) in groups.enumerate() {
+                    let wires = &mut wires[..color.len() / columns];
+                    W::draw_group(setup, (band * BAND + group * GROUP) as u32, wires);
+                    let rows = color.chunks_exact_mut(columns).zip(hit.chunks_exact_mut(columns));
+                    for (line, (color, hit)) in wires.iter().zip(rows) {
+                        look(line);
+                        color.copy_from_slice(&line.color);
+                        hit.copy_from_slice(&line.hit);
+                        if let Some(part) = &mut part {
+                            part.push(line);
+                        }
+                    }
                 }
-                builder
+                part
             },
         )
         .collect();
-    let mut frame = FrameBuilder::new(plan, setup.lines as usize, buffers, false);
-    for band in bands {
-        frame.append(band);
+    let mut whole = buffers.then(|| BufferBuilder::new(plan, lines, false));
+    for part in parts.into_iter().flatten() {
+        if let Some(whole) = &mut whole {
+            whole.append(part);
+        }
     }
-    frame.finish()
+    Frame { columns, lines, color, hit, buffers: whole.map(BufferBuilder::finish) }
 }

@@ -21,9 +21,6 @@ pub const PACKETS: usize = 4;
 /// Packets that lie side by side.
 pub type Tile<W, S> = [Rays<W, S>; PACKETS];
 
-/// Block size that rays try first, behind a common start.
-const START_LEVEL: u32 = 0;
-
 /// Outcomes by number.
 const OUTCOMES: [Hit; 4] = [Hit::Sky, Hit::Surface, Hit::Side, Hit::Far];
 
@@ -36,7 +33,7 @@ pub struct Rays<W: Packed, S: Simd> {
     pub step: [W::Words<S>; 3],
     /// Index of the sample at that place.
     pub index: u32x16<S>,
-    /// Block size that is tried next.
+    /// Block size that is tried next; behind a common start, the finest first.
     pub level: u32x16<S>,
     /// Looks for a block that it does not pass.
     pub walks: mask32x16<S>,
@@ -139,7 +136,6 @@ impl<W: Packed, S: Simd> Rays<W, S> {
         let longest = [longest::<W, S>(dx, met), longest::<W, S>(dz, met)];
         self.place = place;
         self.step = [dx, dy, dz];
-        self.level = u32x16::simd_from(simd, START_LEVEL.min(land.relief.maxima.top()));
         self.outcome = far.select(number(stepper.beyond as i32), number(Hit::Sky as i32));
         self.within = within;
         self.rises = !dy.less(none);

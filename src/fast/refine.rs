@@ -96,9 +96,9 @@ impl<W: Packed, S: Simd> Refinement<W, S> {
             *middle = *middle + step.halved_each(self.times + 1);
         }
         let in_between = meets & land.inside(middle[0].cell(), middle[2].cell());
-        for axis in 0..3 {
-            let place = W::Words::select(in_between, middle[axis], self.met[axis]);
-            rays.place[axis] = W::Words::select(hits, place, rays.place[axis]);
+        for (place, (middle, met)) in rays.place.iter_mut().zip(middle.into_iter().zip(self.met)) {
+            let refined = W::Words::select(in_between, middle, met);
+            *place = W::Words::select(hits, refined, *place);
         }
         // As `Stepper::beside`: from beside the map or out of a hole a ray meets the side, down to
         // the base.

@@ -15,8 +15,10 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use proptest::test_runner::TestCaseError;
 use support::recipe::{Recipe, recipes};
 use support::{
-    assert_same, both, builtin, count, difference, draw_in_real, drawn, is_under_ground, runner,
+    assert_same, at_every_level, both, builtin, count, difference, draw_in_real, drawn,
+    is_under_ground, runner,
 };
+use terraline::fast;
 use terraline::frame::{Frame, Hit};
 use terraline::plan::{Plan, WordClass};
 use terraline::scene::{Scene, StepperMode, WordSize};
@@ -105,6 +107,38 @@ fn a_large_frame_is_drawn_alike() {
     let (processor, fast) = both(&scene, &support::plan(&scene)).expect("a frame");
     assert_same("flight", &processor, &fast);
     assert!(count(&processor, Hit::Surface) > 100_000);
+}
+
+#[test]
+fn every_simd_level_draws_alike() {
+    let levels = fast::levels().len();
+    println!("{levels} SIMD levels");
+    for name in support::SCENES {
+        for words in [WordSize::Narrow, WordSize::Wide] {
+            let mut scene = builtin(name, 120, 90);
+            scene.machine.words = words;
+            let plan = support::plan(&scene);
+            let frames = at_every_level(&scene, &plan).expect("frames");
+            let processor = drawn(&scene, &plan).expect("a frame");
+            assert_eq!(frames.len(), levels);
+            frames.iter().for_each(|frame| assert_same(name, &processor, frame));
+        }
+    }
+    let seen = Seen::default();
+    let result = runner(60).run(&recipes(), |recipe| {
+        for (scene, plan) in planned(&recipe, &seen) {
+            let Ok(frames) = at_every_level(&scene, &plan) else { continue };
+            for frame in &frames[1..] {
+                seen.frame(frame);
+                fail("two SIMD levels", &plan, difference(&frames[0], frame))?;
+            }
+        }
+        Ok(())
+    });
+    result.unwrap();
+    if levels > 1 {
+        seen.assert_enough();
+    }
 }
 
 #[test]

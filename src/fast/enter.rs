@@ -3,6 +3,8 @@
 //! In wrapping fixed point `start + k·step` is k additions (equation 7 of docs/mathematics.md),
 //! so lines are independent of each other and a line's columns fill in parallel.
 
+use fearless_simd::Level;
+
 use super::{on_vectors, singly};
 use crate::setup::Setup;
 use crate::unit::Line;
@@ -16,24 +18,25 @@ use crate::word::{Complete, Enter, World};
 /// Its lines are drawn by a method without type parameters, so that the vectorised code of each
 /// world is compiled once, in this library.
 pub trait Enterable: Complete + World<View: Enter> {
-    /// Draws a few neighbouring lines from `first` on, on wires that hold all columns.
-    fn draw_group(setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]);
+    /// Draws a few neighbouring lines from `first` on, on wires that hold all columns, at a SIMD
+    /// level.
+    fn draw_group(level: Level, setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]);
 }
 
 impl Enterable for Narrow {
-    fn draw_group(setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
-        on_vectors(setup, first, lines);
+    fn draw_group(level: Level, setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
+        on_vectors(level, setup, first, lines);
     }
 }
 
 impl Enterable for Wide {
-    fn draw_group(setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
-        on_vectors(setup, first, lines);
+    fn draw_group(level: Level, setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
+        on_vectors(level, setup, first, lines);
     }
 }
 
 impl Enterable for Sweep {
-    fn draw_group(setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
+    fn draw_group(_: Level, setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
         singly(setup, first, lines);
     }
 }

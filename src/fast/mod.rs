@@ -1,9 +1,13 @@
 //! The fast engine: the processor's frame, bit for bit, by threads, direct entry and packets of
 //! rays on vectors.
 //!
-//! A group of lines goes through projector and divider (`enter`), then packets of sixteen rays
-//! through `march` (blocks of the map), `solve` (single cells) and `refine` (the last step), then
-//! sixteen pixels at a time through `shade`. `words` holds the vectors, `heights` the surface.
+//! A group of lines goes through projector and divider (`enter`), then tiles of four packets of
+//! sixteen rays each (`rays`) through `beam` (what all rays of a tile pass), `march` (blocks of the
+//! map), `solve` (single cells) and `refine` (the last step), then sixteen pixels at a time through
+//! `shade`. `words` holds the vectors, `heights` the surface, `maxima` the blocks.
+//!
+//! Functions on vectors are `#[inline(always)]` and do without closures: what is not inlined into
+//! the function that `dispatch!` makes for a SIMD level is compiled without its instructions.
 #![deny(clippy::float_arithmetic)]
 
 mod beam;
@@ -41,17 +45,33 @@ pub const GROUP: usize = 4;
 /// will do; [`GROUP`] are drawn at a time.
 pub fn run_lines<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
     for (group, number) in lines.chunks_mut(GROUP).zip((first..).step_by(GROUP)) {
-        W::draw_group(setup, number, group);
+        W::draw_group(Level::new(), setup, number, group);
     }
 }
 
-/// Draws a few neighbouring lines at the widest SIMD level of the processor it runs on.
+/// The SIMD levels of the processor that it runs on, the widest first.
+pub fn levels() -> Vec<Level> {
+    let widest = Level::new();
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    let levels = [
+        widest.as_avx512().map(Level::Avx512),
+        widest.as_avx2().map(Level::Avx2),
+        widest.as_sse4_2().map(Level::Sse4_2),
+        widest.as_sse2().map(Level::Sse2),
+    ];
+    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+    let levels = [Some(widest)];
+    levels.into_iter().flatten().collect()
+}
+
+/// Draws a few neighbouring lines by packets.
 fn on_vectors<W: Complete + Packed + Enterable>(
+    level: Level,
     setup: &Setup<W>,
     first: u32,
     lines: &mut [Line<W>],
 ) {
-    dispatch!(Level::new(), simd => simd.vectorize(
+    dispatch!(level, simd => simd.vectorize(
         #[inline(always)]
         || {
             project(setup, first, lines);
@@ -84,11 +104,31 @@ fn project<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
 
 /// Draws a whole frame on all threads.
 pub fn render<W: Complete + Enterable>(setup: &Setup<W>, plan: &Plan, buffers: bool) -> Frame {
-    render_and_look(setup, plan, buffers, &|_| {})
+    render_at(Level::new(), setup, plan, buffers)
+}
+
+/// The same frame at one of [`levels`].
+pub fn render_at<W: Complete + Enterable>(
+    level: Level,
+    setup: &Setup<W>,
+    plan: &Plan,
+    buffers: bool,
+) -> Frame {
+    draw(level, setup, plan, buffers, &|_| {})
 }
 
 /// Draws a whole frame and shows every finished line to `look`, in no particular order.
 pub fn render_and_look<W: Complete + Enterable>(
+    setup: &Setup<W>,
+    plan: &Plan,
+    buffers: bool,
+    look: &(impl Fn(&Line<W>) + Sync),
+) -> Frame {
+    draw(Level::new(), setup, plan, buffers, look)
+}
+
+fn draw<W: Complete + Enterable>(
+    level: Level,
     setup: &Setup<W>,
     plan: &Plan,
     buffers: bool,
@@ -110,7 +150,7 @@ pub fn render_and_look<W: Complete + Enterable>(
                 let groups = color.chunks_mut(GROUP * columns).zip(hit.chunks_mut(GROUP * columns));
                 for (group, (color, hit)) in groups.enumerate() {
                     let wires = &mut wires[..color.len() / columns];
-                    W::draw_group(setup, (band * BAND + group * GROUP) as u32, wires);
+                    W::draw_group(level, setup, (band * BAND + group * GROUP) as u32, wires);
                     let rows = color.chunks_exact_mut(columns).zip(hit.chunks_exact_mut(columns));
                     for (line, (color, hit)) in wires.iter().zip(rows) {
                         look(line);

@@ -162,6 +162,22 @@ pub fn both(scene: &Scene, plan: &Plan) -> Result<(Frame, Frame), SetupError> {
     FixedWorld::of(scene, plan)?.run(Both(scene, plan))
 }
 
+/// Draws with the fast engine at every SIMD level that there is.
+pub fn at_every_level(scene: &Scene, plan: &Plan) -> Result<Vec<Frame>, SetupError> {
+    struct Levels<'a>(&'a Scene, &'a Plan);
+    impl InFixedWorld for Levels<'_> {
+        type Output = Result<Vec<Frame>, SetupError>;
+        fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+            let Self(scene, plan) = self;
+            let memory = Memory::new(&world, scene, plan)?;
+            let setup = Setup::new(world, scene, plan, memory.as_ref())?;
+            let draw = |level| terraline::fast::render_at(level, &setup, plan, true);
+            Ok(terraline::fast::levels().into_iter().map(draw).collect())
+        }
+    }
+    FixedWorld::of(scene, plan)?.run(Levels(scene, plan))
+}
+
 /// Draws with the processor in a scene's fixed-point world.
 pub fn drawn(scene: &Scene, plan: &Plan) -> Result<Frame, SetupError> {
     struct One<'a>(&'a Scene, &'a Plan);

@@ -7,7 +7,7 @@
 
 use fearless_simd::prelude::*;
 
-use super::march::Land;
+use super::land::Land;
 use super::rays::Tile;
 use super::words::{Packed, Words};
 use crate::word::Lane as _;

@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, u32x16};
 
-use super::march::Land;
+use super::land::Land;
 use super::words::{LANES, Packed, Words, lanes};
 use crate::setup::relief::Table;
 use crate::unit::interpolator::Form;

@@ -9,46 +9,17 @@
 //! cell that is not passed so, `solve` finds the first sample under the surface.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{i32x16, mask32x16, u32x16};
+use fearless_simd::u32x16;
 
+use super::land::Land;
 use super::rays::{COLUMNS, PACKETS, Rays, Tile};
-use super::words::{LANES, Packed, Words};
+use super::words::{Packed, Words};
 use super::{beam, refine, shade, solve};
-use crate::frame::Hit;
+use crate::setup::TerrainUnits;
 use crate::setup::maxima::NOTHING;
-use crate::setup::{Relief, TerrainUnits};
 use crate::unit::Line;
-use crate::unit::interpolator::Interpolator;
 use crate::unit::line::Work;
-use crate::unit::stepper::{Place, Stepper};
-use crate::word::{Lane, World};
-
-/// What a walk needs to know of the map.
-pub struct Land<'a, W: World, S> {
-    /// SIMD level.
-    pub simd: S,
-    /// The machine's stepper.
-    pub stepper: &'a Stepper<W>,
-    /// The machine's interpolator.
-    pub surface: &'a Interpolator<W>,
-    /// The map.
-    pub relief: &'a Relief<W::Height>,
-}
-
-impl<W: World, S: Simd> Land<'_, W, S> {
-    /// Where there is a surface in cell (i, j).
-    #[inline(always)]
-    pub fn inside(&self, i: i32x16<S>, j: i32x16<S>) -> mask32x16<S> {
-        let finest = u32x16::simd_from(self.simd, 0);
-        let maxima = &self.relief.maxima;
-        let (addresses, held) = maxima.addresses(finest, i, j);
-        if self.surface.heights.has_voids() {
-            held & maxima.bounds(addresses).simd_ne(i32::from(NOTHING))
-        } else {
-            held
-        }
-    }
-}
+use crate::word::Lane as _;
 
 /// Runs stepper, interpolator and shader on neighbouring lines: by packets where set-up has made
 /// maxima, else as the processor does.
@@ -146,40 +117,5 @@ fn trial<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
     let moved = (x.cell() ^ rays.place[0].cell()) | (z.cell() ^ rays.place[2].cell());
     let entered = (moved.bitcast::<u32x16<S>>() >> (level + 1)).simd_ne(0);
     rays.level = (passes & entered).select((level + 1).min(maxima.top()), finer);
-    end_walks(land, rays);
-}
-
-/// Ends the walks that can no longer meet the surface, as `Stepper::is_over` says, or whose samples
-/// are used up.
-#[inline(always)]
-pub fn end_walks<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
-    let stepper = land.stepper;
-    let used_up = rays.walks & rays.index.simd_gt(stepper.last);
-    if used_up.any_true() {
-        let ([x, y, z], [dx, dy, dz]) = (rays.place, rays.step);
-        let (x, y, z) = ((x - dx).store(), (y - dy).store(), (z - dz).store());
-        let [dx, dy, dz] = rays.step.map(Words::store);
-        for lane in (0..LANES).filter(|&lane| used_up.test(lane)) {
-            let last = place::<W>(x[lane], y[lane], z[lane]);
-            let step = place::<W>(dx[lane], dy[lane], dz[lane]);
-            let over = stepper.is_over(last, stepper.heading(step));
-            rays.outcome[lane] = if over { Hit::Sky } else { Hit::Far } as i32;
-        }
-    }
-    let [x, y, z] = rays.place;
-    let [first_x, last_x, first_z, last_z] = rays.within;
-    let (i, j) = (x.cell(), z.cell());
-    let below_top = y.less(W::Words::splat(land.simd, stepper.top.int()));
-    let over = i.simd_lt(first_x)
-        | i.simd_gt(last_x)
-        | j.simd_lt(first_z)
-        | j.simd_gt(last_z)
-        | (rays.rises & !below_top);
-    rays.walks &= !(over | used_up);
-}
-
-/// A place from its bits.
-#[inline(always)]
-fn place<W: Packed>(x: W::Int, y: W::Int, z: W::Int) -> Place<W> {
-    Place { x: W::Ground::of_int(x), y: W::Height::of_int(y), z: W::Ground::of_int(z) }
+    rays.end_walks(land);
 }

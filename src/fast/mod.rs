@@ -4,7 +4,8 @@
 //! A group of lines goes through projector and divider (`enter`), then tiles of four packets of
 //! sixteen rays each (`rays`) through `beam` (what all rays of a tile pass), `march` (blocks of the
 //! map), `solve` (single cells) and `refine` (the last step), then sixteen pixels at a time through
-//! `shade`. `words` holds the vectors, `heights` the surface, `maxima` the blocks.
+//! `shade`. `words` says what vectors do (`narrow` and `wide` are they), `land` holds the map,
+//! `heights` the surface, `maxima` the blocks.
 //!
 //! Functions on vectors are `#[inline(always)]` and do without closures: what is not inlined into
 //! the function that `dispatch!` makes for a SIMD level is compiled without its instructions.
@@ -13,12 +14,15 @@
 mod beam;
 pub mod enter;
 mod heights;
+mod land;
 mod march;
 mod maxima;
+mod narrow;
 mod rays;
 mod refine;
 mod shade;
 mod solve;
+mod wide;
 mod words;
 
 use fearless_simd::{Level, Simd as _, dispatch};

@@ -4,11 +4,12 @@ use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::GROUP;
-use super::march::{Land, end_walks};
+use super::land::Land;
 use super::words::{LANES, Packed, Words};
 use crate::frame::Hit;
 use crate::unit::Line;
 use crate::unit::line::Entry;
+use crate::unit::stepper::Place;
 use crate::word::Lane;
 
 /// Neighbouring pixels of a line in a packet.
@@ -147,7 +148,7 @@ impl<W: Packed, S: Simd> Rays<W, S> {
         // A ray may be over before its first sample, or have none.
         let fallen = self.falls & place[1].less(splat(stepper.base.int()));
         self.walks = met & !fallen;
-        end_walks(land, self);
+        self.end_walks(land);
         if stepper.last == 0 {
             self.outcome = self.walks.select(number(Hit::Far as i32), self.outcome);
             self.walks = mask(false);
@@ -184,6 +185,35 @@ impl<W: Packed, S: Simd> Rays<W, S> {
             *place = place.after(step, steps);
         }
         self.index += steps;
+    }
+
+    /// Ends the walks that can no longer meet the surface, as `Stepper::is_over` says, or whose
+    /// samples are used up.
+    #[inline(always)]
+    pub fn end_walks(&mut self, land: &Land<'_, W, S>) {
+        let stepper = land.stepper;
+        let used_up = self.walks & self.index.simd_gt(stepper.last);
+        if used_up.any_true() {
+            let ([x, y, z], [dx, dy, dz]) = (self.place, self.step);
+            let (x, y, z) = ((x - dx).store(), (y - dy).store(), (z - dz).store());
+            let [dx, dy, dz] = self.step.map(Words::store);
+            for lane in (0..LANES).filter(|&lane| used_up.test(lane)) {
+                let last = place::<W>(x[lane], y[lane], z[lane]);
+                let step = place::<W>(dx[lane], dy[lane], dz[lane]);
+                let over = stepper.is_over(last, stepper.heading(step));
+                self.outcome[lane] = if over { Hit::Sky } else { Hit::Far } as i32;
+            }
+        }
+        let [x, y, z] = self.place;
+        let [first_x, last_x, first_z, last_z] = self.within;
+        let (i, j) = (x.cell(), z.cell());
+        let below_top = y.less(W::Words::splat(land.simd, stepper.top.int()));
+        let over = i.simd_lt(first_x)
+            | i.simd_gt(last_x)
+            | j.simd_lt(first_z)
+            | j.simd_gt(last_z)
+            | (self.rises & !below_top);
+        self.walks &= !(over | used_up);
     }
 }
 
@@ -243,4 +273,10 @@ fn longest<W: Packed, S: Simd>(steps: W::Words<S>, of: mask32x16<S>) -> u32 {
 #[inline(always)]
 fn inverse<W: Packed>(step: u32) -> u32 {
     ((1_u64 << (W::Ground::FRACTION + 20)) / u64::from(step.max(1))).min(1 << 26) as u32
+}
+
+/// A place from its bits.
+#[inline(always)]
+fn place<W: Packed>(x: W::Int, y: W::Int, z: W::Int) -> Place<W> {
+    Place { x: W::Ground::of_int(x), y: W::Height::of_int(y), z: W::Ground::of_int(z) }
 }

@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::heights::{Nodes, heights, nodes};
-use super::march::Land;
+use super::land::Land;
 use super::rays::{PACKETS, Rays, Tile};
 use super::words::{Packed, Words};
 use crate::frame::Hit;

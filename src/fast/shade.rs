@@ -5,8 +5,9 @@ use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::heights::{entries, nodes, slope, weight};
-use super::march::Land;
-use super::words::{LANES, Packed, Products, Words, lanes};
+use super::land::Land;
+use super::narrow::Products;
+use super::words::{LANES, Packed, Words, lanes};
 use crate::frame::Hit;
 use crate::unit::Line;
 use crate::unit::interpolator::Form;

@@ -10,7 +10,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
 use super::heights::{Nodes, heights, nodes};
-use super::march::{Land, end_walks};
+use super::land::Land;
 use super::rays::{PACKETS, Rays, Tile};
 use super::words::{Packed, Words};
 use crate::unit::interpolator::Form;
@@ -125,7 +125,7 @@ impl<W: Packed, S: Simd> Search<W, S> {
         rays.hits |= self.hits;
         rays.walks |= rays.near & !self.hits;
         rays.near = mask32x16::simd_from(land.simd, false);
-        end_walks(land, rays);
+        rays.end_walks(land);
     }
 }
 

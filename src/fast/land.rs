@@ -1,0 +1,37 @@
+//! What packets need to know of the map and the machine.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{i32x16, mask32x16, u32x16};
+
+use crate::setup::Relief;
+use crate::setup::maxima::NOTHING;
+use crate::unit::interpolator::Interpolator;
+use crate::unit::stepper::Stepper;
+use crate::word::World;
+
+/// The map, and the units whose work packets do.
+pub struct Land<'a, W: World, S> {
+    /// SIMD level.
+    pub simd: S,
+    /// The machine's stepper.
+    pub stepper: &'a Stepper<W>,
+    /// The machine's interpolator.
+    pub surface: &'a Interpolator<W>,
+    /// The map.
+    pub relief: &'a Relief<W::Height>,
+}
+
+impl<W: World, S: Simd> Land<'_, W, S> {
+    /// Where there is a surface in cell (i, j).
+    #[inline(always)]
+    pub fn inside(&self, i: i32x16<S>, j: i32x16<S>) -> mask32x16<S> {
+        let finest = u32x16::simd_from(self.simd, 0);
+        let maxima = &self.relief.maxima;
+        let (addresses, held) = maxima.addresses(finest, i, j);
+        if self.surface.heights.has_voids() {
+            held & maxima.bounds(addresses).simd_ne(i32::from(NOTHING))
+        } else {
+            held
+        }
+    }
+}

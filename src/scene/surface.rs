@@ -11,7 +11,7 @@ use super::field::{FARTHEST, Field, Fields, is_length};
 use super::height_map::{Encoding, MapError, source};
 use super::keys::{self, Keys};
 use super::nodata::apply;
-use super::tree::shown;
+use super::tree::{shorten, shown};
 use super::{HeightMap, NoData, Outside, Plane, Surface, Terrain, builtin};
 
 #[derive(Clone, Copy)]
@@ -167,9 +167,10 @@ fn load(source: &str, encoding: Encoding, maps: Maps<'_>) -> Result<Arc<HeightMa
     let Some(name) = source.strip_prefix(BUILTIN) else {
         return source::read(&maps.folder.join(source), encoding).map(|file| Arc::new(file.map));
     };
+    let shown = format!("{BUILTIN}{}", shorten(name));
     if encoding != Encoding::Stored {
         return Err(MapError::new(
-            source,
+            &shown,
             "maps of the program hold heights as they are",
             "leave surface.encoding out",
         ));
@@ -177,7 +178,7 @@ fn load(source: &str, encoding: Encoding, maps: Maps<'_>) -> Result<Arc<HeightMa
     builtin::map(name).unwrap_or_else(|| {
         let guess = nearest(name, builtin::MAPS).unwrap_or(builtin::MAPS[0]);
         Err(MapError::new(
-            source,
+            &shown,
             "the program has no such map",
             format!("use \"builtin:{guess}\" or the path of a height file"),
         ))

@@ -20,7 +20,7 @@ use terraline::engine::{FixedWorld, draw_oracle};
 use terraline::frame::Frame;
 use terraline::plan::{Ground, Plan};
 use terraline::scene::file::{Document, parse};
-use terraline::scene::{Scene, SceneError, StepperMode, Surface, builtin, overlook, write};
+use terraline::scene::{Scene, SceneError, Surface, builtin, overlook, write};
 use terraline::setup::SetupError;
 use terraline::study::cost::Measure;
 use terraline::study::error::{self, Sample};
@@ -41,7 +41,8 @@ const MOST_BYTES: usize = 256 << 20;
 /// Maps of more nodes are read but not drawn.
 const MOST_NODES: usize = 1 << 20;
 
-/// Plain walks of more steps are planned but not drawn.
+/// Scenes of longer walks are drawn with few pixels, of much longer ones not at all.
+const MANY_STEPS: u32 = 1 << 16;
 const MOST_STEPS: u32 = 1 << 20;
 
 /// Maps that the scenes name.
@@ -193,25 +194,27 @@ fn draw(mut scene: Scene, stages: &AtomicUsize) -> Result<(), Stop> {
     {
         return Ok(());
     }
-    // Rays that hardly move take all their steps where none is skipped.
-    let (columns, lines) = match scene.stepper.mode {
-        StepperMode::Plain => (2, 2),
-        StepperMode::Skipping => (16, 12),
-    };
     for screen in &mut scene.screens {
-        *screen = screen.resized(columns, lines);
+        *screen = screen.resized(16, 12);
+    }
+    let steps = match Plan::new(&scene, None, false).map_err(refused)?.ground {
+        Ground::Terrain(walk) => walk.last,
+        Ground::Plane(_) => 0,
+    };
+    // Rays that hardly move, or run along cliffs, take most of their steps.
+    if steps > MOST_STEPS {
+        return Ok(());
+    }
+    if steps > MANY_STEPS {
+        for screen in &mut scene.screens {
+            *screen = screen.resized(2, 2);
+        }
     }
     let last = scene.screens.last().map(|screen| screen.name.clone());
     for (screen, full) in [(None, false), (last.as_deref(), true)] {
         let plan = Plan::new(&scene, screen, full).map_err(refused)?;
         let world = FixedWorld::of(&scene, &plan).map_err(refused)?;
         stages.fetch_max(2, Relaxed);
-        if let Ground::Terrain(walk) = &plan.ground
-            && scene.stepper.mode == StepperMode::Plain
-            && walk.last > MOST_STEPS
-        {
-            return Ok(());
-        }
         // Registers that saturate are the processor's alone.
         let frame = if world.wraps() {
             let (frame, fast) = both(&scene, &plan).map_err(refused)?;

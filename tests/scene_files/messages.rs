@@ -196,6 +196,14 @@ fn odd_names_stay_on_one_line() {
         ("[format]\n\"a\\nb\" = 3", "format.a\\nb"),
         ("\"a\\nb\" = 3", "`a\\nb`"),
         ("[[surface]]\nmap = \"a\\nb.asc\"", "a\\nb.asc: there is no such file"),
+        (
+            "[[surface]]\nmap = \"builtin:\\u0085jacksboro\"",
+            "builtin:\\u{85}jacksboro: the program has",
+        ),
+        (
+            "[[surface]]\nmap = \"builtin:a\\nb\"\nencoding = \"terrarium\"",
+            "builtin:a\\nb: maps of the program",
+        ),
     ] {
         assert_fails(text, &[word]);
     }

@@ -8,7 +8,7 @@
 use fearless_simd::prelude::*;
 
 use super::land::Land;
-use super::rays::Tile;
+use super::rays::{Tile, any_walks};
 use super::words::{Packed, Words};
 use crate::word::Lane as _;
 
@@ -54,11 +54,7 @@ impl Beam {
     /// The beam of the rays that walk, if any does.
     #[inline(always)]
     fn around<W: Packed, S: Simd>(tile: &Tile<W, S>) -> Option<Self> {
-        let mut any = false;
-        for rays in tile {
-            any |= rays.walks.any_true();
-        }
-        if !any {
+        if !any_walks(tile) {
             return None;
         }
         let (x, y, z) = (extent(tile, 0), extent(tile, 1), extent(tile, 2));

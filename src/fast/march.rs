@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::u32x16;
 
 use super::land::Land;
-use super::rays::{COLUMNS, PACKETS, Rays, Tile};
+use super::rays::{COLUMNS, PACKETS, Rays, Tile, any_walks};
 use super::words::{Packed, Words};
 use super::{beam, refine, shade, solve};
 use crate::setup::TerrainUnits;
@@ -73,16 +73,6 @@ fn march<W: Packed, S: Simd>(land: &Land<'_, W, S>, tile: &mut Tile<W, S>) {
         }
         solve::run(land, tile);
     }
-}
-
-/// Whether there is a ray that walks.
-#[inline(always)]
-fn any_walks<W: Packed, S: Simd>(tile: &Tile<W, S>) -> bool {
-    let mut any = false;
-    for rays in tile {
-        any |= rays.walks.any_true();
-    }
-    any
 }
 
 /// One block of every walking ray: passed, or looked at more closely.

@@ -5,7 +5,7 @@ use std::ops::Add;
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x4, i32x16, i64x8, mask32x16, u32x16, u64x8};
 
-use super::words::{LANES, Packed, Words, lanes};
+use super::words::{LANES, Packed, Words, lanes, transposed};
 use crate::word::stock::Narrow;
 use crate::word::{Lane as _, World};
 
@@ -33,15 +33,7 @@ impl<S: Simd> Words<S> for i32x16<S> {
     }
     #[inline(always)]
     fn load_four(simd: S, w: [[i32; 4]; LANES]) -> [Self; 4] {
-        let q = [four(simd, &w, 0), four(simd, &w, 4), four(simd, &w, 8), four(simd, &w, 12)];
-        let (even, odd) = (q[0].unzip_low(q[1]), q[0].unzip_high(q[1]));
-        let (later_even, later_odd) = (q[2].unzip_low(q[3]), q[2].unzip_high(q[3]));
-        [
-            even.unzip_low(later_even),
-            odd.unzip_low(later_odd),
-            even.unzip_high(later_even),
-            odd.unzip_high(later_odd),
-        ]
+        transposed([four(simd, &w, 0), four(simd, &w, 4), four(simd, &w, 8), four(simd, &w, 12)])
     }
     #[inline(always)]
     fn splat(simd: S, word: i32) -> Self {

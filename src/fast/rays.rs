@@ -217,7 +217,18 @@ impl<W: Packed, S: Simd> Rays<W, S> {
     }
 }
 
-/// Copies a line's part of a packet from a wire, as far as the line goes.
+/// Whether there is a ray that walks.
+#[inline(always)]
+pub fn any_walks<W: Packed, S: Simd>(tile: &Tile<W, S>) -> bool {
+    let mut any = false;
+    for rays in tile {
+        any |= rays.walks.any_true();
+    }
+    any
+}
+
+/// Copies a line's part of a packet from a wire, as far as the line goes. A whole part has a length
+/// that the compiler knows: it is copied at once.
 #[inline(always)]
 fn load<T: Copy, U>(
     wire: &[T],
@@ -239,7 +250,7 @@ fn load<T: Copy, U>(
     }
 }
 
-/// Copies a line's part of a packet to a wire, as far as the line goes.
+/// Copies a line's part of a packet to a wire, as far as the line goes; see [`load`].
 #[inline(always)]
 fn store<T: Copy, U>(
     lanes: &[T; LANES],

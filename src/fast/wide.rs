@@ -5,7 +5,7 @@ use std::ops::{Add, Sub};
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, i64x4, i64x8, mask32x16, u32x16, u64x8};
 
-use super::words::{LANES, Packed, Words, lanes};
+use super::words::{LANES, Packed, Words, lanes, transposed};
 use crate::word::stock::Wide;
 use crate::word::{Lane as _, World};
 
@@ -42,21 +42,13 @@ fn two<S: Simd>(simd: S, first: [i64; 4], second: [i64; 4]) -> i64x8<S> {
 
 /// Half of [`Words::load_four`].
 #[inline(always)]
-fn transposed<S: Simd>(simd: S, words: &[[i64; 4]; LANES], from: usize) -> [i64x8<S>; 4] {
-    let q = [
+fn four<S: Simd>(simd: S, words: &[[i64; 4]; LANES], from: usize) -> [i64x8<S>; 4] {
+    transposed([
         two(simd, words[from], words[from + 1]),
         two(simd, words[from + 2], words[from + 3]),
         two(simd, words[from + 4], words[from + 5]),
         two(simd, words[from + 6], words[from + 7]),
-    ];
-    let (even, odd) = (q[0].unzip_low(q[1]), q[0].unzip_high(q[1]));
-    let (later_even, later_odd) = (q[2].unzip_low(q[3]), q[2].unzip_high(q[3]));
-    [
-        even.unzip_low(later_even),
-        odd.unzip_low(later_odd),
-        even.unzip_high(later_even),
-        odd.unzip_high(later_odd),
-    ]
+    ])
 }
 
 /// Half of [`Words::steps_within`].
@@ -98,8 +90,8 @@ impl<S: Simd> Words<S> for Pair<S> {
     }
     #[inline(always)]
     fn load_four(simd: S, words: [[i64; 4]; LANES]) -> [Self; 4] {
-        let [a, b, c, d] = transposed(simd, &words, 0);
-        let [e, f, g, h] = transposed(simd, &words, LANES / 2);
+        let [a, b, c, d] = four(simd, &words, 0);
+        let [e, f, g, h] = four(simd, &words, LANES / 2);
         [Self(a, e), Self(b, f), Self(c, g), Self(d, h)]
     }
     #[inline(always)]

@@ -98,3 +98,17 @@ pub trait Words<S: Simd>: Copy + Add<Output = Self> + Sub<Output = Self> {
     /// Words of 32 bits.
     fn widened(words: i32x16<S>) -> Self;
 }
+
+/// Four words per lane, side by side over four vectors, as a vector of first ones, one of second
+/// ones, and so on.
+#[inline(always)]
+pub fn transposed<S: Simd, V: SimdBase<S>>(rows: [V; 4]) -> [V; 4] {
+    let (even, odd) = (rows[0].unzip_low(rows[1]), rows[0].unzip_high(rows[1]));
+    let (later_even, later_odd) = (rows[2].unzip_low(rows[3]), rows[2].unzip_high(rows[3]));
+    [
+        even.unzip_low(later_even),
+        odd.unzip_low(later_odd),
+        even.unzip_high(later_even),
+        odd.unzip_high(later_odd),
+    ]
+}

@@ -1,0 +1,159 @@
+//! Makes C++ models of the RTL with Verilator and links them, behind the thin shim in `shim/`.
+//!
+//! Sets `cfg(rtl)` where Verilator and a C++ compiler are there. Without them the package builds
+//! too, and everything that needs a model says that it is left out; with `REQUIRE_RTL=1` the build
+//! fails instead.
+
+use std::env;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A module of `rtl/` with the parameters that a model of it is made with.
+struct Model {
+    /// Name in [`terraline_hdl::Model::new`].
+    name: &'static str,
+    /// Module.
+    top: &'static str,
+    /// Parameters, `NAME=value`.
+    parameters: &'static [&'static str],
+}
+
+const fn model(
+    name: &'static str,
+    top: &'static str,
+    parameters: &'static [&'static str],
+) -> Model {
+    Model { name, top, parameters }
+}
+
+/// Every model that tests and commands use.
+const MODELS: &[Model] = &[
+    model("queue_1", "queue", &["WIDTH=16", "DEPTH=1"]),
+    model("queue_5", "queue", &["WIDTH=16", "DEPTH=5"]),
+];
+
+fn main() {
+    println!("cargo::rerun-if-changed=rtl");
+    println!("cargo::rerun-if-changed=shim");
+    println!("cargo::rerun-if-env-changed=REQUIRE_RTL");
+    println!("cargo::rerun-if-env-changed=PATH");
+    let required = env::var("REQUIRE_RTL").is_ok_and(|value| value == "1");
+    match include_folder() {
+        Ok(include) => {
+            build(&include);
+            println!("cargo::rustc-cfg=rtl");
+        }
+        Err(why) if required => panic!("REQUIRE_RTL=1, but {why}"),
+        Err(why) => {
+            println!("cargo::warning=no models of the RTL: {why}; its tests will be skipped");
+            println!("cargo::rustc-env=RTL_MISSING={why}");
+        }
+    }
+}
+
+/// Where Verilator's own sources are.
+fn include_folder() -> Result<PathBuf, String> {
+    let out = Command::new("verilator")
+        .args(["--getenv", "VERILATOR_ROOT"])
+        .output()
+        .map_err(|error| format!("verilator cannot be run ({error}); install it"))?;
+    let root = String::from_utf8_lossy(&out.stdout).trim().to_owned();
+    let include = Path::new(&root).join("include");
+    if include.join("verilated.cpp").is_file() {
+        Ok(include)
+    } else {
+        Err(format!("verilator has no sources under {}", include.display()))
+    }
+}
+
+fn build(include: &Path) {
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    let mut sources: Vec<PathBuf> = fs::read_dir("rtl")
+        .expect("rtl/ is a folder")
+        .map(|entry| entry.expect("a readable folder").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "sv"))
+        .collect();
+    // The package comes first: the others use it.
+    sources.sort_by_key(|path| (!path.ends_with("terraline_pkg.sv"), path.clone()));
+    let mut cpp = cc::Build::new();
+    cpp.cpp(true).std("c++17").include(include).include("shim").warnings(false).opt_level(2);
+    let mut table = String::from("#include \"model.hpp\"\n");
+    let mut rows = String::new();
+    for model in MODELS {
+        let folder = out.join(model.name);
+        verilate(model, &sources, &folder);
+        cpp.include(&folder);
+        let prefix = format!("V{}", model.name);
+        for entry in fs::read_dir(&folder).expect("verilator made the folder") {
+            let path = entry.expect("a readable folder").path();
+            if path.extension().is_some_and(|extension| extension == "cpp") {
+                cpp.file(path);
+            }
+        }
+        let header = fs::read_to_string(folder.join(format!("{prefix}.h")))
+            .expect("verilator made the model's header");
+        let shim = folder.join(format!("shim_{}.cpp", model.name));
+        fs::write(&shim, ports(model.name, &prefix, &header)).expect("OUT_DIR is writable");
+        let _ = writeln!(table, "Model *make_{}();", model.name);
+        let _ = writeln!(rows, "    {{\"{}\", make_{}}},", model.name, model.name);
+        cpp.file(shim);
+    }
+    let _ = write!(table, "const Row rows[] = {{\n{rows}    {{nullptr, nullptr}},\n}};\n");
+    let rows = out.join("models.cpp");
+    fs::write(&rows, table).expect("OUT_DIR is writable");
+    for runtime in ["verilated.cpp", "verilated_threads.cpp", "verilated_fst_c.cpp"] {
+        cpp.file(include.join(runtime));
+    }
+    cpp.file(rows).file("shim/model.cpp").compile("terraline_rtl");
+    println!("cargo::rustc-link-lib=z");
+}
+
+fn verilate(model: &Model, sources: &[PathBuf], folder: &Path) {
+    // Files that an earlier run left would be compiled as well.
+    if folder.exists() {
+        fs::remove_dir_all(folder).expect("OUT_DIR is writable");
+    }
+    let mut command = Command::new("verilator");
+    command
+        .args(["--cc", "--trace-fst", "--trace-structs", "-Wall", "-O3", "--x-assign", "fast"])
+        .args(["--top-module", model.top, "--prefix", &format!("V{}", model.name), "--Mdir"])
+        .arg(folder)
+        .arg("rtl/waivers.vlt")
+        .args(sources);
+    for parameter in model.parameters {
+        command.arg(format!("-G{parameter}"));
+    }
+    let done = command.output().expect("verilator was found a moment ago");
+    if !done.status.success() {
+        panic!("verilator refuses {}:\n{}", model.top, String::from_utf8_lossy(&done.stderr));
+    }
+}
+
+/// The list of a model's ports, from the declarations in its header: `VL_IN8(&clock,0,0);`.
+fn ports(name: &str, prefix: &str, header: &str) -> String {
+    let mut out = format!(
+        "#include \"{prefix}.h\"\n#include \"model.hpp\"\n\n\
+         Model *make_{name}() {{\n    auto *made = new Made<{prefix}>();\n    \
+         auto &m = made->rtl;\n"
+    );
+    for line in header.lines() {
+        let Some((kind, rest)) = line.trim().split_once("(&") else { continue };
+        let input = match kind.strip_prefix("VL_") {
+            Some(kind) if kind.starts_with("IN") && !kind.starts_with("INOUT") => true,
+            Some(kind) if kind.starts_with("OUT") => false,
+            _ => continue,
+        };
+        let mut fields = rest.trim_end_matches(");").split(',');
+        let (Some(port), Some(high), Some(low)) = (fields.next(), fields.next(), fields.next())
+        else {
+            panic!("a port declaration that is not understood: {line}");
+        };
+        let bit = |text: &str| text.parse::<u32>().expect("a bit number in a port declaration");
+        let width = bit(high) - bit(low) + 1;
+        let _ = writeln!(out, "    made->add(\"{port}\", {input}, {width}, &m.{port});");
+    }
+    out.push_str("    return made;\n}\n");
+    out
+}

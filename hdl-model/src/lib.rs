@@ -1,0 +1,29 @@
+//! The processor in SystemVerilog (`rtl/`), run beside the emulator.
+//!
+//! `build.rs` has Verilator make programs of the modules; [`Model`] drives one. Where Verilator is
+//! missing there are no models, and everything that needs one says so.
+
+#[cfg(rtl)]
+mod ffi;
+#[cfg(rtl)]
+mod model;
+
+#[cfg(rtl)]
+pub use model::{Model, Port};
+
+/// Why there are no models of the RTL; `None` where there are.
+pub fn missing() -> Option<&'static str> {
+    option_env!("RTL_MISSING")
+}
+
+/// For tests that need a model: whether to skip them, said loudly.
+///
+/// # Panics
+/// If `REQUIRE_RTL=1`.
+pub fn skipped() -> bool {
+    let Some(why) = missing() else { return false };
+    let required = std::env::var("REQUIRE_RTL").is_ok_and(|value| value == "1");
+    assert!(!required, "REQUIRE_RTL=1, but {why}");
+    eprintln!("SKIPPED, not tested: {why}");
+    true
+}

@@ -12,11 +12,15 @@
 //! to the one in which the frame takes the last pixel.
 #![deny(clippy::float_arithmetic)]
 
-use crate::setup::table::{DIVIDER_ENDS, LERP_LATENCY, RAY_START, SHADER_LATENCY};
+use crate::scene::{Machine, RatioForm};
+use crate::setup::table::{
+    DIVIDER_ENDS, LERP_LATENCY, RAY_END, RAY_START, SHADER_LATENCY, SLOPE_LATENCY,
+};
 use crate::setup::{Back, Setup};
 use crate::unit::Line;
 use crate::unit::interpolator::Form;
 use crate::unit::line::Work;
+use crate::word::format::mix;
 use crate::word::{Complete, World};
 
 /// One unit in the chain.
@@ -46,52 +50,67 @@ pub struct Chain {
     pub stages: Vec<Stage>,
     stepper: Option<usize>,
     interpolator: Option<usize>,
+    /// The divider's place and its cycles of work, where it takes more than one.
+    serial: Option<(usize, u32)>,
     memory_latency: u32,
     reads: u32,
+    void_bits: bool,
 }
 
 impl Chain {
-    /// The chain of a set-up, with `memory_latency` cycles from address to data. `idle` units pass
-    /// items on in one cycle.
-    pub fn new<W: Complete>(setup: &Setup<W>, memory_latency: u32, idle: bool) -> Self {
+    /// The chain of a set-up in a machine. `idle` units pass items on in one cycle.
+    pub fn new<W: Complete>(setup: &Setup<W>, machine: &Machine, idle: bool) -> Self {
+        let memory_latency = machine.memory_latency;
         let mut stages = vec![Stage { name: "projector", latency: 1, depth: 2 }];
+        let mut serial = None;
         if let Some(divider) = &setup.divider {
-            let latency = divider.bits + DIVIDER_ENDS;
-            stages.push(Stage { name: "divider", latency, depth: latency + 1 });
+            let cycles = divider.bits + DIVIDER_ENDS;
+            match machine.ratio {
+                RatioForm::Array => {
+                    stages.push(Stage { name: "divider", latency: cycles, depth: cycles + 1 });
+                }
+                RatioForm::Serial => {
+                    serial = Some((stages.len(), cycles));
+                    stages.push(Stage { name: "divider", latency: 1, depth: 2 });
+                }
+            }
         }
+        let answer = memory_latency + LERP_LATENCY + SLOPE_LATENCY;
         let (mut stepper, mut interpolator) = (None, None);
-        let mut reads = 1;
+        let (mut reads, mut void_bits) = (1, false);
         match &setup.back {
             Back::Terrain(units) => {
                 // 3×3 nodes take four cycles from four banks.
                 reads = if units.interpolator.form == Form::Stretch { 4 } else { 1 };
+                void_bits = units.interpolator.heights.has_voids();
                 stepper = Some(stages.len());
                 stages.push(Stage { name: "stepper", latency: 1, depth: 2 });
                 interpolator = Some(stages.len());
-                let latency = memory_latency + LERP_LATENCY;
-                stages.push(Stage { name: "interpolator", latency, depth: latency + 1 });
+                stages.push(Stage { name: "interpolator", latency: answer, depth: answer + 1 });
             }
             Back::Plane(_) if idle => {
                 stages.push(Stage { name: "stepper", latency: 1, depth: 2 });
-                let latency = memory_latency + LERP_LATENCY;
-                stages.push(Stage { name: "interpolator", latency, depth: latency + 1 });
+                stages.push(Stage { name: "interpolator", latency: answer, depth: answer + 1 });
             }
             Back::Plane(_) => {}
         }
         stages.push(Stage { name: "shader", latency: SHADER_LATENCY, depth: SHADER_LATENCY + 1 });
         stages.push(Stage { name: "frame", latency: 0, depth: 1 });
-        Self { stages, stepper, interpolator, memory_latency, reads }
+        Self { stages, stepper, interpolator, serial, memory_latency, reads, void_bits }
     }
 
     /// Cycles of the stepper's work on a pixel: every trial waits for the pyramid, samples stream
-    /// through the interpolator in groups, halvings wait for each other.
+    /// through the interpolation in groups, halvings wait for each other. With holes, the bits of
+    /// the two places between which a hit lies are read once more.
     pub fn stepper_work(&self, work: Work) -> u32 {
         let answer = self.memory_latency + LERP_LATENCY;
+        let rim = if self.void_bits { 2 * self.reads + answer } else { 0 };
         RAY_START
             + work.trials * (1 + self.memory_latency)
             + work.samples * self.reads
             + work.groups * answer
             + work.halvings * (self.reads + answer)
+            + work.hits * (RAY_END + rim)
     }
 
     fn work(&self, stage: usize, work: Work) -> u32 {
@@ -100,7 +119,32 @@ impl Chain {
         } else if Some(stage) == self.interpolator {
             self.reads
         } else {
-            1
+            self.serial.filter(|&(divider, _)| divider == stage).map_or(1, |(_, cycles)| cycles)
+        }
+    }
+}
+
+/// Who takes finished pixels from the frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sink {
+    /// Takes a pixel in every cycle.
+    #[default]
+    Ready,
+    /// Is busy in some cycles, chosen by a seed.
+    Busy {
+        /// Which cycles.
+        seed: u64,
+        /// How many of 256, below 256.
+        of_256: u8,
+    },
+}
+
+impl Sink {
+    /// Whether it takes a pixel in a cycle, counted from 0.
+    pub fn is_ready(self, cycle: u64) -> bool {
+        match self {
+            Self::Ready => true,
+            Self::Busy { seed, of_256 } => mix(seed, cycle) as u8 >= of_256,
         }
     }
 }
@@ -114,6 +158,9 @@ pub struct Clock {
     /// Per unit, the first cycle in which it is done with the item before.
     free: Vec<u64>,
     occupancy: Vec<Occupancy>,
+    /// Per unit, the cycle in which it took its latest item.
+    entered: Vec<u64>,
+    sink: Sink,
     items: u64,
     last: u64,
 }
@@ -134,10 +181,18 @@ impl Clock {
             taken: depths.take(chain.stages.len()).map(ring).collect(),
             free: vec![0; chain.stages.len()],
             occupancy: vec![Occupancy::default(); chain.stages.len()],
+            entered: vec![0; chain.stages.len()],
+            sink: Sink::Ready,
             items: 0,
             last: 0,
             chain,
         }
+    }
+
+    /// The clock with another sink behind the frame.
+    #[must_use]
+    pub fn with_sink(self, sink: Sink) -> Self {
+        Self { sink, ..self }
     }
 
     /// One pixel; returns the cycle (from 1) in which the frame takes it.
@@ -152,12 +207,16 @@ impl Clock {
                 Some(ring) if self.items >= u64::from(stage.depth) => ring.times[ring.at] + 1,
                 _ => 0,
             };
-            let entered = here.max(room);
+            let mut entered = here.max(room);
+            while unit + 1 == count && !self.sink.is_ready(entered) {
+                entered += 1;
+            }
             let cycles = self.chain.work(unit, work);
             let occupancy = &mut self.occupancy[unit];
             occupancy.busy += u64::from(cycles);
             occupancy.stalled += entered - here;
             self.free[unit] = entered + u64::from(cycles);
+            self.entered[unit] = entered;
             let ring = &mut self.taken[unit];
             ring.times[ring.at] = entered;
             ring.at = (ring.at + 1) % ring.times.len();
@@ -173,6 +232,11 @@ impl Clock {
         for (i, &work) in line.work.iter().enumerate() {
             done(i, self.take(work));
         }
+    }
+
+    /// Per unit, the cycle (from 0) in which it took its latest item.
+    pub fn entered(&self) -> &[u64] {
+        &self.entered
     }
 
     /// Cycles so far.

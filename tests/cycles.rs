@@ -1,12 +1,12 @@
 //! The cycle recurrence against a simulation that goes cycle by cycle, and costs that can be
 //! counted by hand.
 
-use terraline::clock::{Chain, Clock};
+use terraline::clock::{Chain, Clock, Sink};
 use terraline::engine::FixedWorld;
 use terraline::plan::Plan;
 use terraline::processor::{self, Processor};
 use terraline::scene::{self, Scene};
-use terraline::setup::table::{LERP_LATENCY, RAY_START};
+use terraline::setup::table::{LERP_LATENCY, RAY_END, RAY_START};
 use terraline::setup::{Memory, Setup};
 use terraline::study::cost::{Cost, Measure};
 use terraline::study::error::Sample;
@@ -25,20 +25,29 @@ fn chain_and_work(name: &str, sets: &[&str]) -> (Chain, Vec<Work>) {
     let (scene, plan) = planned(name, sets);
     let memory = Memory::new(&Narrow, &scene, &plan).expect("memory");
     let setup = Setup::new(Narrow, &scene, &plan, memory.as_ref()).expect("set-up");
-    let chain = Chain::new(&setup, scene.machine.memory_latency, false);
+    let chain = Chain::new(&setup, &scene.machine, false);
     let mut work = Vec::new();
     let mut line = Processor::new(&setup).wires();
     processor::run_lines(&setup, &mut line, 0..setup.lines, |line| work.extend(&line.work));
     (chain, work)
 }
 
+/// Cycles of work that do not depend on the item.
+struct Case {
+    reads: u64,
+    divider: u64,
+}
+
+const PLAIN: Case = Case { reads: 1, divider: 1 };
+
 /// Completion cycles of all items, by stepping a clock and asking every unit what it can do.
-fn simulate(chain: &Chain, reads: u32, work: &[Work]) -> Vec<u64> {
+fn simulate(chain: &Chain, machine: &Case, work: &[Work], sink: Sink) -> Vec<u64> {
     let units = chain.stages.len();
     let cycles = |unit: usize, item: usize| -> u64 {
         match chain.stages[unit].name {
             "stepper" => chain.stepper_work(work[item]).into(),
-            "interpolator" => reads.into(),
+            "interpolator" => machine.reads,
+            "divider" => machine.divider,
             _ => 1,
         }
     };
@@ -61,7 +70,7 @@ fn simulate(chain: &Chain, reads: u32, work: &[Work]) -> Vec<u64> {
             // Places are freed the cycle after the next unit takes an item.
             let gone = if unit + 1 < units { before[unit + 1] } else { item };
             let room = item - gone < chain.stages[unit].depth as usize;
-            if arrived && idle && room {
+            if arrived && idle && room && (unit + 1 < units || sink.is_ready(now)) {
                 taken[unit].push(now);
             }
         }
@@ -70,23 +79,31 @@ fn simulate(chain: &Chain, reads: u32, work: &[Work]) -> Vec<u64> {
     taken[units - 1].iter().map(|at| at + 1).collect()
 }
 
-fn recurrence(chain: &Chain, work: &[Work]) -> Vec<u64> {
-    let mut clock = Clock::new(chain.clone());
+fn recurrence(chain: &Chain, work: &[Work], sink: Sink) -> Vec<u64> {
+    let mut clock = Clock::new(chain.clone()).with_sink(sink);
     work.iter().map(|&work| clock.take(work)).collect()
 }
 
 #[test]
 fn the_recurrence_is_what_a_cycle_by_cycle_simulation_does() {
-    for (name, reads, sets) in [
-        ("overview", 1, vec!["screen.size=[24, 18]"]),
-        ("overview", 1, vec!["screen.size=[24, 18]", "machine.memory_latency=1"]),
-        ("flight", 1, vec!["screen.size=[24, 18]", "machine.memory_latency=5"]),
-        ("valley", 4, vec!["screen.size=[24, 18]", "kernel.deformation=1"]),
-        ("plane", 1, vec!["screen.size=[24, 18]"]),
+    let serial = |divider| Case { reads: 1, divider };
+    for (name, case, set) in [
+        ("overview", PLAIN, ""),
+        ("overview", PLAIN, "machine.memory_latency=1"),
+        ("flight", PLAIN, "machine.memory_latency=5"),
+        ("valley", Case { reads: 4, ..PLAIN }, "kernel.deformation=1"),
+        ("plane", PLAIN, ""),
+        // Quotients of 31 bits, and bias, range and eye.
+        ("plane", serial(34), "machine.ratio=serial"),
     ] {
+        let sets: Vec<_> =
+            ["screen.size=[24, 18]", set].into_iter().take(1 + set.len().min(1)).collect();
         let (chain, work) = chain_and_work(name, &sets);
         assert_eq!(work.len(), 24 * 18);
-        assert_eq!(recurrence(&chain, &work), simulate(&chain, reads, &work), "{name} {sets:?}");
+        for sink in [Sink::Ready, Sink::Busy { seed: 7, of_256: 100 }] {
+            let expected = simulate(&chain, &case, &work, sink);
+            assert_eq!(recurrence(&chain, &work, sink), expected, "{name} {set} {sink:?}");
+        }
     }
 }
 
@@ -94,11 +111,11 @@ fn the_recurrence_is_what_a_cycle_by_cycle_simulation_does() {
 fn queues_fill_and_drain() {
     // Bursts of hard pixels among easy ones stall the units before the stepper.
     let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]"]);
-    let hard = Work { trials: 40, samples: 30, groups: 6, halvings: 12 };
+    let hard = Work { trials: 40, samples: 30, groups: 6, halvings: 12, hits: 1 };
     let work: Vec<Work> =
         (0..300).map(|i| if i % 50 < 5 { hard } else { Work::default() }).collect();
-    let cycles = recurrence(&chain, &work);
-    assert_eq!(cycles, simulate(&chain, 1, &work));
+    let cycles = recurrence(&chain, &work, Sink::Ready);
+    assert_eq!(cycles, simulate(&chain, &PLAIN, &work, Sink::Ready));
     let mut clock = Clock::new(chain);
     work.iter().for_each(|&work| {
         clock.take(work);
@@ -111,12 +128,12 @@ fn queues_fill_and_drain() {
 fn a_rays_work_is_the_sum_of_its_parts() {
     let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]"]);
     let memory = 2;
-    let work = Work { trials: 3, samples: 5, groups: 2, halvings: 4 };
+    let work = Work { trials: 3, samples: 5, groups: 2, halvings: 4, hits: 1 };
     let answer = memory + LERP_LATENCY;
-    let expected = RAY_START + 3 * (1 + memory) + 5 + 2 * answer + 4 * (1 + answer);
+    let expected = RAY_START + 3 * (1 + memory) + 5 + 2 * answer + 4 * (1 + answer) + RAY_END;
     assert_eq!(chain.stepper_work(work), expected);
     let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]", "kernel.deformation=1"]);
-    let expected = RAY_START + 3 * (1 + memory) + 5 * 4 + 2 * answer + 4 * (4 + answer);
+    let expected = RAY_START + 3 * (1 + memory) + 5 * 4 + 2 * answer + 4 * (4 + answer) + RAY_END;
     assert_eq!(chain.stepper_work(work), expected);
 }
 

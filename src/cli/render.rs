@@ -112,8 +112,11 @@ impl InFixedWorld for Draw<'_> {
                 frame
             } else {
                 let mut clock = self.cycles.then(|| {
-                    let latency = scene.machine.memory_latency;
-                    (Clock::new(Chain::new(&setup, latency, plan.fitted.idle)), Vec::new(), 0)
+                    (
+                        Clock::new(Chain::new(&setup, &scene.machine, plan.fitted.idle)),
+                        Vec::new(),
+                        0,
+                    )
                 });
                 overflows = Overflows::default();
                 let frame = engine::draw_by_lines(&setup, plan, self.buffers, |line| {

@@ -15,7 +15,7 @@ use super::height_map::{file_reason, one_line, read_limited, shown_path};
 use super::tree::Node;
 use super::{
     Colors, Deformation, FormatRequest, Halvings, Kernel, KernelShape, Light, Machine, Overflow,
-    Rounding, Scene, Stepper, StepperMode, WordSize, camera, keys, screen, set, surface,
+    RatioForm, Rounding, Scene, Stepper, StepperMode, WordSize, camera, keys, screen, set, surface,
 };
 
 /// A scene file is a few hundred bytes; what is much larger was given by mistake.
@@ -232,6 +232,9 @@ fn machine(table: &Fields<'_>) -> Result<Machine, SceneError> {
                 ("narrow", WordSize::Narrow),
                 ("wide", WordSize::Wide),
             ])
+        })?,
+        ratio: table.read("ratio", RatioForm::Array, |ratio| {
+            ratio.choice(&[("array", RatioForm::Array), ("serial", RatioForm::Serial)])
         })?,
     })
 }

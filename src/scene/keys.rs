@@ -48,7 +48,7 @@ pub(super) const COLOR: Keys =
     Keys { table: "color", keys: &["ramp", "sky", "far", "side", "checker"] };
 
 pub(super) const MACHINE: Keys =
-    Keys { table: "machine", keys: &["clock_mhz", "memory_latency", "words"] };
+    Keys { table: "machine", keys: &["clock_mhz", "memory_latency", "words", "ratio"] };
 
 /// One entry of `[format]`; the names of the entries are those of the register table.
 pub(super) const FORMAT: Keys =

@@ -363,6 +363,17 @@ pub struct Machine {
     pub memory_latency: u32,
     /// Word size of the stock world.
     pub words: WordSize,
+    /// The divider's form.
+    pub ratio: RatioForm,
+}
+
+/// Form of the divider: quotients and remainders are the same, cycles are not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RatioForm {
+    /// A pipelined array, one stage per quotient bit: a pixel per cycle.
+    Array,
+    /// One stage for all bits, one bit per cycle.
+    Serial,
 }
 
 /// Word size of the stock world.

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::{
     Angles, Attitude, Deformation, Extent, FormatRequest, Halvings, KernelShape, NoData, Outside,
-    Overflow, Rounding, Scene, Screen, StepperMode, Surface, WordSize,
+    Overflow, RatioForm, Rounding, Scene, Screen, StepperMode, Surface, WordSize,
 };
 
 /// The scene file of a scene. `map` is written as the path of its height map, if it has one that
@@ -65,6 +65,13 @@ pub fn toml(scene: &Scene, map: &str) -> String {
             WordSize::Auto => "auto",
             WordSize::Narrow => "narrow",
             WordSize::Wide => "wide",
+        }),
+    );
+    out.key(
+        "ratio",
+        text(match scene.machine.ratio {
+            RatioForm::Array => "array",
+            RatioForm::Serial => "serial",
         }),
     );
 

@@ -12,6 +12,11 @@ use crate::word::Register;
 pub const LERP_LATENCY: u32 = 5;
 /// Cycles to shift a view vector into a step.
 pub const RAY_START: u32 = 2;
+/// Cycles that a hit takes besides its halvings: one for its distance from the eye, which says how
+/// many they are, and one to place it.
+pub const RAY_END: u32 = 2;
+/// Pipeline stages of the interpolator at the hit behind those of a height: the factors of slopes.
+pub const SLOPE_LATENCY: u32 = 2;
 /// Pipeline stages of the shader: normal, squares, table, dot product, light, ramp, mix, byte.
 pub const SHADER_LATENCY: u32 = 12;
 /// Register stages of the divider besides one per quotient bit: bias, range, eye.
@@ -123,16 +128,19 @@ pub fn markdown() -> String {
          *depth* items, pipeline and queue together (equation 28).\n\n\
          | unit | work on an item | latency | depth |\n|---|---|---|---|\n\
          | projector | 1 | 1 | 2 |\n\
-         | divider | 1 | bits + {DIVIDER_ENDS} | bits + {} |\n\
+         | divider, array | 1 | bits + {DIVIDER_ENDS} | bits + {} |\n\
+         | divider, serial | bits + {DIVIDER_ENDS} | 1 | 2 |\n\
          | stepper | {RAY_START} + trials·(1 + M) + samples·R + groups·(M + {LERP_LATENCY}) + \
-         halvings·(R + M + {LERP_LATENCY}) | 1 | 2 |\n\
-         | interpolator | R | M + {LERP_LATENCY} | M + {} |\n\
+         halvings·(R + M + {LERP_LATENCY}) + hits·({RAY_END} + H) | 1 | 2 |\n\
+         | interpolator | R | M + {} | M + {} |\n\
          | shader | 1 | {SHADER_LATENCY} | {} |\n\
          | frame | 1 | 0 | 1 |\n\n\
          R, reads of the height memory per interpolation: 1 cycle for 2×2 nodes, 4 for 3×3. A \
-         group is a run of up to 2^k samples streamed through the interpolator.\n",
+         group is a run of up to 2^k samples streamed through the interpolator. H is 2R + M + \
+         {LERP_LATENCY} on a map with holes, else 0.\n",
         DIVIDER_ENDS + 1,
-        LERP_LATENCY + 1,
+        LERP_LATENCY + SLOPE_LATENCY,
+        LERP_LATENCY + SLOPE_LATENCY + 1,
         SHADER_LATENCY + 1,
     );
     out

@@ -92,7 +92,7 @@ impl InFixedWorld for Measure<'_> {
     fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
         let memory = Memory::new(&world, self.scene, self.plan)?;
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
-        let chain = Chain::new(&setup, self.scene.machine.memory_latency, self.plan.fitted.idle);
+        let chain = Chain::new(&setup, &self.scene.machine, self.plan.fitted.idle);
         let mut clock = Clock::new(chain);
         let mut reads = [Reads::default(); 3];
         let mut line = Processor::new(&setup).wires();

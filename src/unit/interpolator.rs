@@ -141,6 +141,12 @@ impl<W: Interpolating> Interpolator<W> {
         ]
     }
 
+    /// Whether a place is within the edges of the map.
+    #[inline(always)]
+    pub fn is_on_map(&self, x: W::Ground, z: W::Ground) -> bool {
+        self.heights.contains(x.cell(), z.cell())
+    }
+
     /// Whether a node that the surface at a place is made of has no data.
     #[inline(always)]
     pub fn is_hole(&self, x: W::Ground, z: W::Ground) -> bool {
@@ -303,11 +309,6 @@ fn slope<H: Multiply<T>, T: Word>(nodes: [H; 3], slopes: [T; 2], site: Site) -> 
 }
 
 impl<W: Interpolating> SurfaceUnit<W> for Interpolator<W> {
-    #[inline(always)]
-    fn is_on_map(&self, x: W::Ground, z: W::Ground) -> bool {
-        self.heights.contains(x.cell(), z.cell())
-    }
-
     #[inline(always)]
     fn contains(&self, x: W::Ground, z: W::Ground) -> bool {
         self.is_on_map(x, z) && !self.is_hole(x, z)

@@ -21,12 +21,14 @@ pub enum Entry {
 pub struct Work {
     /// Jumps tried against the pyramid.
     pub trials: u32,
-    /// Samples of the ray compared with the surface, inside the map.
+    /// Samples of the ray compared with the surface.
     pub samples: u32,
     /// Runs of samples streamed through the interpolator.
     pub groups: u32,
     /// Halvings after the hit.
     pub halvings: u32,
+    /// Hits: one, or none.
+    pub hits: u32,
 }
 
 /// The wires of one scan line. A unit that is not fitted leaves its wires as they are.

@@ -29,8 +29,6 @@ use crate::word::{Cell, Register, Rescale, Site, Word, World};
 
 /// What the stepper asks of the interpolator.
 pub trait SurfaceUnit<W: World> {
-    /// Whether a place is within the edges of the map, so that nodes are read there.
-    fn is_on_map(&self, x: W::Ground, z: W::Ground) -> bool;
     /// Whether the surface exists at a place: it is on the map and not in a hole.
     fn contains(&self, x: W::Ground, z: W::Ground) -> bool;
     /// Its height there.
@@ -272,15 +270,12 @@ impl<W: World> Stepper<W> {
                 // No jump is clear: test the samples of one cell before trying again.
                 run = (1 << self.fineness).min(self.last - index);
             }
-            let mut streamed = false;
+            work.groups += 1;
             for _ in 0..run {
                 place = place.plus(step);
                 index += 1;
-                if surface.is_on_map(place.x, place.z) {
-                    // In a hole, too, the nodes are read: their bits tell that it is one.
-                    streamed = true;
-                    work.samples += 1;
-                }
+                // Whether the surface exists there is known when the nodes have been read.
+                work.samples += 1;
                 if !surface.contains(place.x, place.z) {
                     if self.is_over(place, heading) {
                         break;
@@ -289,11 +284,9 @@ impl<W: World> Stepper<W> {
                 }
                 let height = surface.height(place.x, place.z, site.step(index << 3));
                 if place.y < height {
-                    work.groups += 1;
                     return self.refine(place, step, surface, site, index, work);
                 }
             }
-            work.groups += u32::from(streamed);
         }
     }
 
@@ -307,6 +300,7 @@ impl<W: World> Stepper<W> {
         index: u32,
         mut work: Work,
     ) -> Walk<W> {
+        work.hits = 1;
         let times = self.halvings_at(hit);
         let (mut clear, mut met) = (hit.minus(step), hit);
         for halving in 1..=times {

@@ -153,14 +153,14 @@ impl<W: Complete + Enterable> Machine for Loaded<W> {
     }
 
     fn scan(&self, source: Source, buffers: bool) -> Result<Box<dyn Scan + '_>, SetupError> {
-        let latency = self.scene.machine.memory_latency;
+        let machine = &self.scene.machine;
         Ok(match source {
             Source::Fast => Box::new(FastScan::new(&self.fixed, &self.plan, buffers)),
             Source::Processor => {
-                Box::new(ProcessorScan::new(&self.fixed, &self.plan, latency, buffers))
+                Box::new(ProcessorScan::new(&self.fixed, &self.plan, machine, buffers))
             }
             Source::Real => {
-                Box::new(ProcessorScan::new(self.real()?, &self.plan, latency, buffers))
+                Box::new(ProcessorScan::new(self.real()?, &self.plan, machine, buffers))
             }
             Source::Oracle => Box::new(OracleScan::new(self.oracle(), &self.plan)),
             Source::FixedError | Source::RealError => {
@@ -175,9 +175,9 @@ impl<W: Complete + Enterable> Machine for Loaded<W> {
     }
 
     fn probe(&self, column: u32, line: u32) -> Result<Probe, SetupError> {
-        let latency = self.scene.machine.memory_latency;
+        let machine = &self.scene.machine;
         let comparison = self.comparison()?;
-        Ok(probe::probe(&comparison, latency, column, line))
+        Ok(probe::probe(&comparison, machine, column, line))
     }
 
     fn modelled(&self, lines: u32) -> Modelled {

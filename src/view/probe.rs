@@ -37,7 +37,7 @@ pub struct Probe {
 /// Looks at a pixel of a frame.
 pub fn probe<W: Complete>(
     comparison: &Comparison<'_, W>,
-    memory_latency: u32,
+    machine: &Machine,
     column: u32,
     line: u32,
 ) -> Probe {
@@ -48,7 +48,7 @@ pub fn probe<W: Complete>(
     }
     let mut wires = processor.wires();
     processor.run_line(&mut wires);
-    let mut clock = Clock::new(Chain::new(fixed, memory_latency, plan.fitted.idle));
+    let mut clock = Clock::new(Chain::new(fixed, machine, plan.fitted.idle));
     let (mut before, mut cycles) = (0, 0);
     clock.take_line(&wires, |i, done| {
         if i == column as usize {
@@ -101,7 +101,7 @@ pub fn modelled<W: Complete>(
     machine: &Machine,
     sample: &Sample,
 ) -> Modelled {
-    let mut clock = Clock::new(Chain::new(setup, machine.memory_latency, plan.fitted.idle));
+    let mut clock = Clock::new(Chain::new(setup, machine, plan.fitted.idle));
     let mut processor = Processor::new(setup);
     let mut wires = processor.wires();
     for &line in &sample.lines {

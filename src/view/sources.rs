@@ -11,6 +11,7 @@ use crate::oracle::Oracle;
 use crate::plan::Plan;
 use crate::processor::Processor;
 use crate::readout::FrameBuilder;
+use crate::scene::Machine;
 use crate::setup::Setup;
 use crate::study::error::{Comparison, PixelError, Sample, Sheet};
 use crate::unit::Line;
@@ -115,13 +116,13 @@ pub struct ProcessorScan<'a, W: Complete> {
 }
 
 impl<'a, W: Complete> ProcessorScan<'a, W> {
-    /// At the first line, with `memory_latency` cycles from address to data.
-    pub fn new(setup: &'a Setup<W>, plan: &'a Plan, memory_latency: u32, buffers: bool) -> Self {
+    /// At the first line, with the cycles of a machine.
+    pub fn new(setup: &'a Setup<W>, plan: &'a Plan, machine: &Machine, buffers: bool) -> Self {
         let processor = Processor::new(setup);
         Self {
             line: processor.wires(),
             processor,
-            clock: Clock::new(Chain::new(setup, memory_latency, plan.fitted.idle)),
+            clock: Clock::new(Chain::new(setup, machine, plan.fitted.idle)),
             before: 0,
             plan,
             buffers,

@@ -233,6 +233,7 @@ fn machine() -> Text {
         ("clock_mhz", number(0.1..1000.0)),
         ("memory_latency", count(1..=64)),
         ("words", word(&["auto", "narrow", "wide"])),
+        ("ratio", word(&["array", "serial"])),
     ];
     let tables = vec![
         table("[stepper]", stepper),

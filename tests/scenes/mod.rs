@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 use terraline::plan::Plan;
 use terraline::scene::{
     Angles, Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, HeightMap, Kernel,
-    KernelShape, Light, Machine, NoData, Outside, Plane, Scene, Screen, Stepper, StepperMode,
-    Surface, Terrain, WordSize,
+    KernelShape, Light, Machine, NoData, Outside, Plane, RatioForm, Scene, Screen, Stepper,
+    StepperMode, Surface, Terrain, WordSize,
 };
 use terraline::setup::{Back, Memory, Setup, TerrainUnits};
 use terraline::unit::interpolator::Interpolator;
@@ -92,7 +92,7 @@ pub fn scene(surface: Surface, eye: DVec3, words: WordSize) -> Scene {
             side: [7, 8, 9],
             checker: [[200, 200, 190], [70, 90, 70]],
         },
-        machine: Machine { clock_mhz: 100.0, memory_latency: 2, words },
+        machine: Machine { clock_mhz: 100.0, memory_latency: 2, words, ratio: RatioForm::Array },
         formats: vec![],
     }
 }

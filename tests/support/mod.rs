@@ -16,8 +16,8 @@ use terraline::oracle::Oracle;
 use terraline::plan::{Plan, PlanError};
 use terraline::scene::{
     Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, HeightMap, Kernel,
-    KernelShape, Light, Machine, NoData, Outside, Scene, Screen, Stepper, StepperMode, Surface,
-    Terrain, WordSize, load,
+    KernelShape, Light, Machine, NoData, Outside, RatioForm, Scene, Screen, Stepper, StepperMode,
+    Surface, Terrain, WordSize, load,
 };
 use terraline::setup::{Memory, Setup, SetupError};
 use terraline::word::Complete;
@@ -93,7 +93,12 @@ pub fn over(map: HeightMap, columns: u32, lines: u32) -> Scene {
             side: [96, 82, 64],
             checker: [[200, 200, 190], [70, 90, 70]],
         },
-        machine: Machine { clock_mhz: 100.0, memory_latency: 2, words: WordSize::Auto },
+        machine: Machine {
+            clock_mhz: 100.0,
+            memory_latency: 2,
+            words: WordSize::Auto,
+            ratio: RatioForm::Array,
+        },
         formats: Vec::new(),
     }
 }

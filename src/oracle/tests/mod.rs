@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3};
 use super::Oracle;
 use crate::scene::{
     Attitude, Camera, Colors, Deformation, Extent, Halvings, HeightMap, Kernel, KernelShape, Light,
-    Machine, Outside, Scene, Screen, Stepper, StepperMode, Surface, Terrain, WordSize,
+    Machine, Outside, RatioForm, Scene, Screen, Stepper, StepperMode, Surface, Terrain, WordSize,
 };
 
 /// Every shape.
@@ -116,7 +116,12 @@ pub(super) fn scene(surface: Surface, kernel: Kernel, eye: DVec3, forward: DVec3
             side: [90, 70, 50],
             checker: [[240, 240, 240], [40, 40, 40]],
         },
-        machine: Machine { clock_mhz: 100.0, memory_latency: 2, words: WordSize::Auto },
+        machine: Machine {
+            clock_mhz: 100.0,
+            memory_latency: 2,
+            words: WordSize::Auto,
+            ratio: RatioForm::Array,
+        },
         formats: Vec::new(),
     }
 }

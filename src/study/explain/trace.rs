@@ -11,7 +11,7 @@ use crate::unit::Line;
 use crate::unit::divider::Method;
 use crate::unit::interpolator::{AT_THE_HIT, Form};
 use crate::unit::line::{Entry, Work};
-use crate::unit::stepper::{Place, SurfaceUnit as _};
+use crate::unit::stepper::Place;
 use crate::word::{Cell, Complete, Fixed, Readout, Register, Site};
 
 /// A register as one world has it.

@@ -2,7 +2,8 @@
 //!
 //! Sets `cfg(rtl)` where Verilator and a C++ compiler are there. Without them the package builds
 //! too, and everything that needs a model says that it is left out; with `REQUIRE_RTL=1` the build
-//! fails instead.
+//! fails instead. `SKIP_RTL=1` makes no models although Verilator is there: for `generate`, while
+//! the generated files do not fit the others.
 
 use std::env;
 use std::fmt::Write as _;
@@ -32,15 +33,24 @@ const fn model(
 const MODELS: &[Model] = &[
     model("queue_1", "queue", &["WIDTH=16", "DEPTH=1"]),
     model("queue_5", "queue", &["WIDTH=16", "DEPTH=5"]),
+    model("projector_narrow", "projector", &["WIDE=0"]),
+    model("projector_wide", "projector", &["WIDE=1"]),
+    model("divider_narrow", "divider", &["WIDE=0"]),
+    model("divider_wide", "divider", &["WIDE=1"]),
+    model("divider_serial_narrow", "divider", &["WIDE=0", "SERIAL=1"]),
+    model("divider_serial_wide", "divider", &["WIDE=1", "SERIAL=1"]),
 ];
 
 fn main() {
     println!("cargo::rerun-if-changed=rtl");
     println!("cargo::rerun-if-changed=shim");
     println!("cargo::rerun-if-env-changed=REQUIRE_RTL");
+    println!("cargo::rerun-if-env-changed=SKIP_RTL");
     println!("cargo::rerun-if-env-changed=PATH");
-    let required = env::var("REQUIRE_RTL").is_ok_and(|value| value == "1");
-    match include_folder() {
+    let is_set = |name| env::var(name).is_ok_and(|value| value == "1");
+    let required = is_set("REQUIRE_RTL");
+    let include = if is_set("SKIP_RTL") { Err("SKIP_RTL=1".into()) } else { include_folder() };
+    match include {
         Ok(include) => {
             build(&include);
             println!("cargo::rustc-cfg=rtl");

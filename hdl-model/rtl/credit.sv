@@ -1,18 +1,18 @@
 // Counts the items that a unit holds, in its pipeline and its queue, and says when one more fits:
 // D of equation 28. A place that an item leaves at one edge is free from the next cycle on.
 module credit #(
-    parameter int DEPTH = 2  // D: most items
+    parameter int COUNT = 2  // bits of the count
 ) (
-    input  logic clock,
-    input  logic reset,  // none is held
-    input  logic enter,  // an item enters at this edge
-    input  logic leave,  // an item leaves at this edge
-    output logic room    // one more fits
+    input  logic             clock,
+    input  logic             reset,  // none is held
+    input  logic [COUNT-1:0] depth,  // D: most items
+    input  logic             enter,  // an item enters at this edge
+    input  logic             leave,  // an item leaves at this edge
+    output logic             room    // one more fits
 );
-  localparam int COUNT = $clog2(DEPTH + 1);
   logic [COUNT-1:0] held;
 
-  assign room = held != COUNT'(DEPTH);
+  assign room = held != depth;
 
   always_ff @(posedge clock) begin
     if (reset) held <= '0;

@@ -3,10 +3,13 @@
 //! `build.rs` has Verilator make programs of the modules; [`Model`] drives one. Where Verilator is
 //! missing there are no models, and everything that needs one says so.
 
+pub mod cli;
+pub mod coefficients;
 #[cfg(rtl)]
 mod ffi;
 #[cfg(rtl)]
 mod model;
+pub mod package;
 
 #[cfg(rtl)]
 pub use model::{Model, Port};

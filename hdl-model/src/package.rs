@@ -1,0 +1,121 @@
+//! What the RTL takes from the emulator's tables: the package of constants and the coefficient
+//! registers, generated as SystemVerilog.
+
+use std::fmt::Write as _;
+
+use terraline::plan::WordClass;
+use terraline::setup::table;
+use terraline::word::Register;
+
+use crate::coefficients::{Bits, COEFFICIENTS, Coefficient};
+
+const HEAD: &str = "// Generated from the register table (src/setup/table.rs) and the list of \
+                    coefficients\n// (hdl-model/src/coefficients.rs) by `cargo run -p \
+                    terraline-hdl -- generate`; a test compares.\n";
+
+/// rtl/terraline_pkg.sv: widths, binary points, latencies and depths.
+pub fn package() -> String {
+    let mut out = format!("{HEAD}package terraline_pkg;\n");
+    for class in [WordClass::NARROW, WordClass::WIDE] {
+        let name = class.name.to_uppercase();
+        let _ = write!(out, "\n  // Words of {} bits\n", class.width);
+        let mut constant = |what: &str, value: u32| {
+            let _ = writeln!(out, "  localparam int {name}_{what} = {value};");
+        };
+        constant("WIDTH", class.width);
+        for (what, register) in [("VIEW_POINT", Register::ViewX), ("POINT", Register::GroundX)] {
+            constant(what, class.fixed(register).point);
+        }
+    }
+    out.push_str("\n  // Registers: format with narrow and with wide words\n");
+    for &register in Register::ALL {
+        let entry = table::entry(register);
+        let _ = writeln!(
+            out,
+            "  //   {:<13} {:<7} {:<7} {}, {}",
+            register.name(),
+            WordClass::NARROW.fixed(register).to_string(),
+            WordClass::WIDE.fixed(register).to_string(),
+            entry.meaning,
+            entry.measure,
+        );
+    }
+    out.push_str("\n  // Cycles (docs/cycles.md)\n");
+    for (name, value, what) in [
+        ("PROJECTOR_LATENCY", 1, "L of the projector"),
+        ("PROJECTOR_DEPTH", 2, "D of the projector"),
+        ("DIVIDER_ENDS", table::DIVIDER_ENDS, "stages of the divider besides one per quotient bit"),
+        ("STEPPER_DEPTH", 2, "D of the stepper and of the serial divider"),
+        ("RAY_START", table::RAY_START, "cycles to make a step of a view vector"),
+        ("RAY_END", table::RAY_END, "cycles of a hit besides its halvings"),
+        ("LERP_LATENCY", table::LERP_LATENCY, "stages of a height behind its memory"),
+        ("SLOPE_LATENCY", table::SLOPE_LATENCY, "stages of the slopes' factors"),
+        ("SHADER_LATENCY", table::SHADER_LATENCY, "L of the shader"),
+        ("SHADER_DEPTH", table::SHADER_LATENCY + 1, "D of the shader"),
+    ] {
+        let _ = writeln!(out, "  localparam int {name} = {value};  // {what}");
+    }
+    out.push_str("\n  // Addresses of coefficients\n");
+    for (address, coefficient) in COEFFICIENTS.iter().enumerate() {
+        let _ = writeln!(
+            out,
+            "  localparam int ADDRESS_{} = {address};",
+            coefficient.name.to_uppercase()
+        );
+    }
+    out.push_str("endpackage\n");
+    out
+}
+
+/// rtl/registers.sv: one register per coefficient.
+pub fn registers() -> String {
+    let mut out = format!(
+        "{HEAD}\n// The coefficients of a frame. Loaded before `start`, one per cycle; they do not \
+         change within a\n// frame.\nmodule registers #(\n    parameter int WIDE = 0  // words of \
+         64 bits, not 32\n) (\n    \
+         input logic clock,\n    \
+         input logic load,  // take `load_data` at this edge\n    \
+         input logic [15:0] load_address,  // terraline_pkg::ADDRESS_...\n    \
+         input logic [(WIDE == 1 ? 64 : 32)-1:0] load_data,  // in the low bits\n"
+    );
+    for (address, coefficient) in COEFFICIENTS.iter().enumerate() {
+        let comma = if address + 1 == COEFFICIENTS.len() { "" } else { "," };
+        let _ = writeln!(
+            out,
+            "    output logic {}{}{comma}  // {}",
+            range(coefficient),
+            coefficient.name,
+            coefficient.meaning
+        );
+    }
+    out.push_str(
+        ");\n  localparam int CELL = WIDE == 1 ? 26 : 12;\n\n  always_ff @(posedge clock) begin\n    \
+         if (load) begin\n      case (load_address)\n",
+    );
+    for coefficient in COEFFICIENTS {
+        let bits = match coefficient.bits {
+            Bits::Word => String::new(),
+            Bits::Cell => "[CELL-1:0]".into(),
+            Bits::Unsigned(1) => "[0]".into(),
+            Bits::Unsigned(bits) | Bits::Signed(bits) => format!("[{}:0]", bits - 1),
+        };
+        let _ = writeln!(
+            out,
+            "        16'(terraline_pkg::ADDRESS_{}): {} <= load_data{bits};",
+            coefficient.name.to_uppercase(),
+            coefficient.name
+        );
+    }
+    out.push_str("        default: ;\n      endcase\n    end\n  end\nendmodule\n");
+    out
+}
+
+fn range(coefficient: &Coefficient) -> String {
+    match coefficient.bits {
+        Bits::Word => "signed [(WIDE == 1 ? 64 : 32)-1:0] ".into(),
+        Bits::Cell => "[(WIDE == 1 ? 26 : 12)-1:0] ".into(),
+        Bits::Unsigned(1) => String::new(),
+        Bits::Unsigned(bits) => format!("[{}:0] ", bits - 1),
+        Bits::Signed(bits) => format!("signed [{}:0] ", bits - 1),
+    }
+}

@@ -2,6 +2,7 @@
 //! emulator's set-up. The module `registers` of the RTL is generated from this list.
 
 use terraline::frame::Hit;
+use terraline::scene::Machine;
 use terraline::setup::{Back, Setup, TerrainUnits};
 
 use terraline::unit::height_memory::Edge;
@@ -84,6 +85,7 @@ pub const COEFFICIENTS: &[Coefficient] = {
         row("slope_scaled", Unsigned(1), "slopes have factors"),
         row("slope_scale_x", Word, "height unit over cell size, x"),
         row("slope_scale_z", Word, "height unit over cell size, z"),
+        row("memory_latency", Unsigned(7), "M: cycles from address to data"),
         row("sky_color", Unsigned(24), "colour where nothing is met, red in the low byte"),
         row("far_color", Unsigned(24), "colour out of range"),
         row("side_color", Unsigned(24), "colour of the map's side"),
@@ -154,9 +156,10 @@ fn exponent(value: i32) -> i64 {
     value.clamp(-128, 127).into()
 }
 
-/// What a set-up loads into the coefficient registers.
-pub fn values<W: Complete>(setup: &Setup<W>) -> Values {
+/// What a set-up loads into the coefficient registers of a machine.
+pub fn values<W: Complete>(setup: &Setup<W>, machine: &Machine) -> Values {
     let mut out = Values::default();
+    out.set("memory_latency", machine.memory_latency);
     out.set("columns", setup.columns);
     out.set("lines", setup.lines);
     let projector = &setup.projector;

@@ -32,6 +32,10 @@ const fn model(
 const MODELS: &[Model] = &[
     model("queue_1", "queue", &["WIDTH=16", "DEPTH=1"]),
     model("queue_5", "queue", &["WIDTH=16", "DEPTH=5"]),
+    model("shader_narrow", "shader", &["WIDE=0", "TAG=16"]),
+    model("shader_wide", "shader", &["WIDE=1", "TAG=16"]),
+    model("checkers_narrow", "checkers", &["WIDE=0", "TAG=16"]),
+    model("checkers_wide", "checkers", &["WIDE=1", "TAG=16"]),
 ];
 
 fn main() {

@@ -1,5 +1,5 @@
 //! Each unit, in time per pixel, in each number world: one line through the middle of `overview`,
-//! and the plane's shader on a line of `plane`.
+//! and the checker on a line of `plane`.
 
 mod support;
 
@@ -49,8 +49,8 @@ fn units<W: Complete>(criterion: &mut Criterion, name: &str, world: W, scene: &S
         group.bench_function("interpolator", |b| b.iter(|| units.interpolator.run(&mut line)));
         group.bench_function("shader", |b| b.iter(|| units.shader.run(&mut line)));
     }
-    if let Back::Plane(shader) = &setup.back {
-        group.bench_function("plane shader", |b| b.iter(|| shader.run(&mut line)));
+    if let Back::Plane(checker) = &setup.back {
+        group.bench_function("checker", |b| b.iter(|| checker.run(&mut line)));
     }
     group.finish();
 }

@@ -39,6 +39,10 @@ const MODELS: &[Model] = &[
     model("divider_wide", "divider", &["WIDE=1"]),
     model("divider_serial_narrow", "divider", &["WIDE=0", "SERIAL=1"]),
     model("divider_serial_wide", "divider", &["WIDE=1", "SERIAL=1"]),
+    model("shader_narrow", "shader", &["WIDE=0", "TAG=16"]),
+    model("shader_wide", "shader", &["WIDE=1", "TAG=16"]),
+    model("checkers_narrow", "checkers", &["WIDE=0", "TAG=16"]),
+    model("checkers_wide", "checkers", &["WIDE=1", "TAG=16"]),
 ];
 
 fn main() {

@@ -51,6 +51,7 @@ module registers #(
     output logic slope_scaled,  // slopes have factors
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] slope_scale_x,  // height unit over cell size, x
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] slope_scale_z,  // height unit over cell size, z
+    output logic [6:0] memory_latency,  // M: cycles from address to data
     output logic [23:0] sky_color,  // colour where nothing is met, red in the low byte
     output logic [23:0] far_color,  // colour out of range
     output logic [23:0] side_color,  // colour of the map's side
@@ -119,6 +120,7 @@ module registers #(
         16'(terraline_pkg::ADDRESS_SLOPE_SCALED): slope_scaled <= load_data[0];
         16'(terraline_pkg::ADDRESS_SLOPE_SCALE_X): slope_scale_x <= load_data;
         16'(terraline_pkg::ADDRESS_SLOPE_SCALE_Z): slope_scale_z <= load_data;
+        16'(terraline_pkg::ADDRESS_MEMORY_LATENCY): memory_latency <= load_data[6:0];
         16'(terraline_pkg::ADDRESS_SKY_COLOR): sky_color <= load_data[23:0];
         16'(terraline_pkg::ADDRESS_FAR_COLOR): far_color <= load_data[23:0];
         16'(terraline_pkg::ADDRESS_SIDE_COLOR): side_color <= load_data[23:0];

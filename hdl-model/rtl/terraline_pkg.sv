@@ -30,7 +30,7 @@ package terraline_pkg;
   //   weight        Q12.20  Q40.24  kernel weight, 1
   //   weight_slope  Q12.20  Q40.24  its derivative, 1/cell
   //   normal        Q12.20  Q40.24  normal, scaled below one, 1
-  //   shade         Q12.20  Q40.24  ambient plus diffuse light, 1
+  //   shade         Q12.20  Q40.24  ambient plus diffuse light; contrast, 1
   //   ramp          Q12.20  Q40.24  place on the ramp, segments
   //   channel       Q12.20  Q40.24  colour channel, 0..=255
 
@@ -88,25 +88,26 @@ package terraline_pkg;
   localparam int ADDRESS_SLOPE_SCALED = 38;
   localparam int ADDRESS_SLOPE_SCALE_X = 39;
   localparam int ADDRESS_SLOPE_SCALE_Z = 40;
-  localparam int ADDRESS_SKY_COLOR = 41;
-  localparam int ADDRESS_FAR_COLOR = 42;
-  localparam int ADDRESS_SIDE_COLOR = 43;
-  localparam int ADDRESS_LIT = 44;
-  localparam int ADDRESS_TOWARD_X = 45;
-  localparam int ADDRESS_TOWARD_Y = 46;
-  localparam int ADDRESS_TOWARD_Z = 47;
-  localparam int ADDRESS_AMBIENT = 48;
-  localparam int ADDRESS_RAMP_EXPONENT = 49;
-  localparam int ADDRESS_RAMP_GAIN = 50;
-  localparam int ADDRESS_RAMP_LAST = 51;
-  localparam int ADDRESS_MEAN_RED = 52;
-  localparam int ADDRESS_MEAN_GREEN = 53;
-  localparam int ADDRESS_MEAN_BLUE = 54;
-  localparam int ADDRESS_SWING_RED = 55;
-  localparam int ADDRESS_SWING_GREEN = 56;
-  localparam int ADDRESS_SWING_BLUE = 57;
-  localparam int ADDRESS_CONTRAST_EXPONENT = 58;
-  localparam int ADDRESS_CONTRAST_GAIN = 59;
-  localparam int ADDRESS_FULL_FROM_FITTED = 60;
-  localparam int ADDRESS_FULL_FROM = 61;
+  localparam int ADDRESS_MEMORY_LATENCY = 41;
+  localparam int ADDRESS_SKY_COLOR = 42;
+  localparam int ADDRESS_FAR_COLOR = 43;
+  localparam int ADDRESS_SIDE_COLOR = 44;
+  localparam int ADDRESS_LIT = 45;
+  localparam int ADDRESS_TOWARD_X = 46;
+  localparam int ADDRESS_TOWARD_Y = 47;
+  localparam int ADDRESS_TOWARD_Z = 48;
+  localparam int ADDRESS_AMBIENT = 49;
+  localparam int ADDRESS_RAMP_EXPONENT = 50;
+  localparam int ADDRESS_RAMP_GAIN = 51;
+  localparam int ADDRESS_RAMP_LAST = 52;
+  localparam int ADDRESS_MEAN_RED = 53;
+  localparam int ADDRESS_MEAN_GREEN = 54;
+  localparam int ADDRESS_MEAN_BLUE = 55;
+  localparam int ADDRESS_SWING_RED = 56;
+  localparam int ADDRESS_SWING_GREEN = 57;
+  localparam int ADDRESS_SWING_BLUE = 58;
+  localparam int ADDRESS_CONTRAST_EXPONENT = 59;
+  localparam int ADDRESS_CONTRAST_GAIN = 60;
+  localparam int ADDRESS_FULL_FROM_FITTED = 61;
+  localparam int ADDRESS_FULL_FROM = 62;
 endpackage

@@ -23,10 +23,7 @@ enum Command {
 
 /// The generated files of `rtl/`, with their texts.
 pub fn generated() -> [(&'static str, String); 2] {
-    [
-        ("rtl/terraline_pkg.sv", package::package()),
-        ("rtl/registers.sv", package::registers()),
-    ]
+    [("rtl/terraline_pkg.sv", package::package()), ("rtl/registers.sv", package::registers())]
 }
 
 /// Runs the command line of this process.

@@ -5,10 +5,11 @@ use terraline::frame::Hit;
 use terraline::scene::Machine;
 use terraline::setup::{Back, Setup, TerrainUnits};
 
+use terraline::unit::checker::Checker;
+use terraline::unit::color::Flat;
 use terraline::unit::height_memory::Edge;
 use terraline::unit::interpolator::Form;
 use terraline::unit::projector::Linear;
-use terraline::unit::shader::{Flat, PlaneShader};
 use terraline::unit::stepper::HalvingRule;
 use terraline::word::{Complete, Readout, Word};
 
@@ -255,7 +256,7 @@ fn terrain<W: Complete>(out: &mut Values, units: &TerrainUnits<W>) {
     out.set("ramp_last", shader.ramp.segments.len() as i64 - 1);
 }
 
-fn plane<W: Complete>(out: &mut Values, checker: &PlaneShader<W>) {
+fn plane<W: Complete>(out: &mut Values, checker: &Checker<W>) {
     flat(out, checker.flat);
     for (names, words) in [
         (["mean_red", "mean_green", "mean_blue"], checker.mean),
@@ -274,11 +275,9 @@ fn plane<W: Complete>(out: &mut Values, checker: &PlaneShader<W>) {
 }
 
 fn flat(out: &mut Values, flat: Flat) {
-    for (name, [red, green, blue]) in [
-        ("sky_color", flat.sky),
-        ("far_color", flat.far),
-        ("side_color", flat.side),
-    ] {
+    for (name, [red, green, blue]) in
+        [("sky_color", flat.sky), ("far_color", flat.far), ("side_color", flat.side)]
+    {
         out.set(name, u32::from_le_bytes([red, green, blue, 0]));
     }
 }

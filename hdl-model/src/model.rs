@@ -31,6 +31,8 @@ impl Model {
         let clock = find(&ports, "clock");
         let mut model = Self { handle, ports, clock, cycle: 0, trace: false };
         model.set(clock, 0);
+        // Without an evaluation at low clock the first edge would be none.
+        model.handle.eval();
         model
     }
 

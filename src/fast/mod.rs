@@ -81,7 +81,7 @@ fn on_vectors<W: Complete + Packed + Enterable>(
             project(setup, first, lines);
             match &setup.back {
                 Back::Terrain(units) => march::draw(simd, units, lines),
-                Back::Plane(shader) => lines.iter_mut().for_each(|line| shader.run(line)),
+                Back::Plane(checker) => lines.iter_mut().for_each(|line| checker.run(line)),
             }
         }
     ));

@@ -9,10 +9,12 @@ use crate::plan::geometry::{LinearScalar, LinearVector};
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanePlan};
 use crate::scene::{Colors, Halvings, Plane, Scene};
+use crate::unit::checker::Checker;
+use crate::unit::color::Flat;
 use crate::unit::divider::Divider;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::projector::{Linear, Projector};
-use crate::unit::shader::{Flat, Light, PlaneShader, Ramp, Segment, TerrainShader};
+use crate::unit::shader::{Light, Ramp, Segment, TerrainShader};
 use crate::unit::stepper::{HalvingRule, Stepper};
 use crate::word::{Dividing, Load, Open, Ratio, Register, Word, World};
 
@@ -293,15 +295,15 @@ pub(super) fn terrain_shader<W: Open>(
     })
 }
 
-/// The shader's registers for a plane.
-pub(super) fn plane_shader<W: Open>(
+/// The checker's registers.
+pub(super) fn checker<W: Open>(
     world: &W,
     scene: &Scene,
     plan: &Plan,
     plane: &Plane,
     planned: &PlanePlan,
     coefficients: &Coefficients,
-) -> Result<PlaneShader<W>, SetupError> {
+) -> Result<Checker<W>, SetupError> {
     let tone = |value, register: Register| load(value, register, world.tone(register));
     let [even, odd] = scene.color.checker;
     let mut mean = [W::Tone::zero(world.tone(Register::Channel)); 3];
@@ -321,7 +323,7 @@ pub(super) fn plane_shader<W: Open>(
     let full_from = W::View::load(2.0 * at_zero_contrast, format);
     let gain =
         if at_zero_contrast == 0.0 { 0.0 } else { 1.0 / (at_zero_contrast * power(exponent)) };
-    Ok(PlaneShader {
+    Ok(Checker {
         flat: flat(&scene.color),
         mean,
         swing,

@@ -15,11 +15,12 @@ use std::sync::Arc;
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanError};
 use crate::scene::{Scene, Surface};
+use crate::unit::checker::Checker;
 use crate::unit::divider::Divider;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::line::Line;
 use crate::unit::projector::Projector;
-use crate::unit::shader::{PlaneShader, TerrainShader};
+use crate::unit::shader::TerrainShader;
 use crate::unit::stepper::{Stepper, SurfaceUnit};
 use crate::word::{Complete, Interpolating, Open, Readout, Register, Shading, Site, World};
 
@@ -51,8 +52,8 @@ pub enum SetupError {
 pub enum Back<W: World> {
     /// Stepper, interpolator, shader of a height map.
     Terrain(Box<TerrainUnits<W>>),
-    /// Shader of a plane.
-    Plane(PlaneShader<W>),
+    /// Checker of a plane.
+    Plane(Checker<W>),
 }
 
 /// The units that draw a height map.
@@ -111,7 +112,7 @@ impl<W: Complete> Setup<W> {
                 }))
             }
             (Surface::Plane(plane), Ground::Plane(planned), _) => Back::Plane(
-                coefficients::plane_shader(&world, scene, plan, plane, planned, &coefficients)?,
+                coefficients::checker(&world, scene, plan, plane, planned, &coefficients)?,
             ),
             _ => unreachable!("a plan is of its scene, and a height map has its memory"),
         };
@@ -142,7 +143,7 @@ impl<W: Interpolating + Shading> Setup<W> {
                 units.stepper.run(line, &units.interpolator);
                 units.shade(line);
             }
-            Back::Plane(shader) => shader.run(line),
+            Back::Plane(checker) => checker.run(line),
         }
     }
 }

@@ -17,7 +17,8 @@ pub const RAY_START: u32 = 2;
 pub const RAY_END: u32 = 2;
 /// Pipeline stages of the interpolator at the hit behind those of a height: the factors of slopes.
 pub const SLOPE_LATENCY: u32 = 2;
-/// Pipeline stages of the shader: normal, squares, table, dot product, light, ramp, mix, byte.
+/// Pipeline stages of the shader (normal, squares, table, dot product, light, ramp, mix, byte), and
+/// of the checker, which has fewer to do.
 pub const SHADER_LATENCY: u32 = 12;
 /// Register stages of the divider besides one per quotient bit: bias, range, eye.
 pub const DIVIDER_ENDS: u32 = 3;
@@ -77,9 +78,13 @@ pub fn entry(register: Register) -> Entry {
         R::Weight => row("kernel ROM", "kernel weight", "1", "12, 16", "½ ulp + (13)"),
         R::WeightSlope => row("kernel ROM", "its derivative", "1/cell", "12, 16", "½ ulp + (13)"),
         R::Normal => row("shader", "normal, scaled below one", "1", "23", "½ ulp"),
-        R::Shade => {
-            row("shader", "ambient plus diffuse light", "1", "24, 25", "2^-10 + 6 ulp (24)")
-        }
+        R::Shade => row(
+            "shader, checker",
+            "ambient plus diffuse light; contrast",
+            "1",
+            "24, 25, 27",
+            "2^-10 + 6 ulp (24)",
+        ),
         R::Ramp => row(
             "shader",
             "place on the ramp",
@@ -87,7 +92,7 @@ pub fn entry(register: Register) -> Entry {
             "26",
             "segments + 1 ulp, plus the height's",
         ),
-        R::Channel => row("shader", "colour channel", "0..=255", "26, 27", "1 level"),
+        R::Channel => row("shader, checker", "colour channel", "0..=255", "26, 27", "1 level"),
     }
 }
 
@@ -133,7 +138,7 @@ pub fn markdown() -> String {
          | stepper | {RAY_START} + trials·(1 + M) + samples·R + groups·(M + {LERP_LATENCY}) + \
          halvings·(R + M + {LERP_LATENCY}) + hits·({RAY_END} + H) | 1 | 2 |\n\
          | interpolator | R | M + {} | M + {} |\n\
-         | shader | 1 | {SHADER_LATENCY} | {} |\n\
+         | shader, checker | 1 | {SHADER_LATENCY} | {} |\n\
          | frame | 1 | 0 | 1 |\n\n\
          R, reads of the height memory per interpolation: 1 cycle for 2×2 nodes, 4 for 3×3. A \
          group is a run of up to 2^k samples streamed through the interpolator. H is 2R + M + \

@@ -141,7 +141,8 @@ impl Measure<'_> {
                         add("interpolator", counted(|| units.interpolator.run(&mut line)).1);
                         add("shader", counted(|| units.shader.run(&mut line)).1);
                     }
-                    Back::Plane(shader) => add("shader", counted(|| shader.run(&mut line)).1),
+                    // The chain has one name for the stage before the frame.
+                    Back::Plane(checker) => add("shader", counted(|| checker.run(&mut line)).1),
                 }
             }
             setup.projector.next_line(&mut start);

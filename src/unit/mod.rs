@@ -8,9 +8,13 @@
 //!                  pyramid  heights + kernel ROM
 //! ```
 //!
+//! On a plane the checker follows the divider.
+//!
 //! Floating point does not occur here: floats belong to set-up, oracle and studies.
 #![deny(clippy::float_arithmetic)]
 
+pub mod checker;
+pub mod color;
 pub mod divider;
 pub mod height_memory;
 pub mod interpolator;

@@ -133,11 +133,11 @@ impl Walk<'_> {
         }
         match &setup.back {
             Back::Terrain(units) => self.terrain(units, &entered, &line, &mut trace),
-            Back::Plane(shader) => {
+            Back::Plane(checker) => {
                 if line.entry[0] == Entry::Met {
                     let site = Site::pixel(self.line, self.column);
-                    trace.unit("shader");
-                    let contrast = shader.contrast(line.denominator[0], site);
+                    trace.unit("checker");
+                    let contrast = checker.contrast(line.denominator[0], site);
                     trace.read(Register::Shade, "contrast of the squares", contrast);
                 }
             }

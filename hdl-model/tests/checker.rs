@@ -1,0 +1,259 @@
+//! The checker against the emulator's, in every bit and cycle: real planes, and hostile coefficients
+//! and items within the ranges that the module states.
+#![cfg(rtl)]
+
+mod elastic;
+
+use elastic::{Pace, Random};
+use terraline::plan::Plan;
+use terraline::processor::Processor;
+use terraline::scene::{WordSize, load};
+use terraline::setup::table::SHADER_LATENCY;
+use terraline::setup::{Back, Memory, Setup};
+use terraline::unit::Line;
+use terraline::unit::checker::Checker;
+use terraline::unit::color::Flat;
+use terraline::unit::line::Entry;
+use terraline::word::stock::{Narrow, Wide};
+use terraline::word::{Complete, Lane, Register};
+use terraline_hdl::Model;
+
+const TAG: u64 = 0xffff;
+
+/// A world of words that are integers of up to 64 bits.
+trait Stock:
+    Complete<
+        View: Lane<Int: Into<i64> + TryFrom<i64>>,
+        Ground: Lane<Int: Into<i64> + TryFrom<i64>>,
+        Tone: Lane<Int: Into<i64> + TryFrom<i64>>,
+    >
+{
+    const MODEL: &'static str;
+    const WORDS: WordSize;
+    const WIDTH: u32;
+}
+
+impl Stock for Narrow {
+    const MODEL: &'static str = "checkers_narrow";
+    const WORDS: WordSize = WordSize::Narrow;
+    const WIDTH: u32 = 32;
+}
+
+impl Stock for Wide {
+    const MODEL: &'static str = "checkers_wide";
+    const WORDS: WordSize = WordSize::Wide;
+    const WIDTH: u32 = 64;
+}
+
+fn word<T: Lane<Int: TryFrom<i64>>>(bits: i64) -> T {
+    let Ok(int) = T::Int::try_from(bits) else { panic!("{bits} is wider than a word") };
+    T::of_int(int)
+}
+
+fn bits<T: Lane<Int: Into<i64>>>(word: T) -> i64 {
+    word.int().into()
+}
+
+fn packed(color: [u8; 3]) -> u64 {
+    let [red, green, blue] = color.map(u64::from);
+    red | green << 8 | blue << 16
+}
+
+/// Drives the coefficient ports.
+fn load_coefficients<W: Stock>(rtl: &mut Model, checker: &Checker<W>) {
+    let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
+    set("sky_color", packed(checker.flat.sky) as i64);
+    set("far_color", packed(checker.flat.far) as i64);
+    for (at, channel) in ["red", "green", "blue"].into_iter().enumerate() {
+        set(&format!("mean_{channel}"), bits(checker.mean[at]));
+        set(&format!("swing_{channel}"), bits(checker.swing[at]));
+    }
+    set("contrast_exponent", checker.contrast_exponent.clamp(-128, 127).into());
+    set("contrast_gain", bits(checker.contrast_gain));
+    set("full_from", checker.full_from.map_or(0, bits));
+    set("full_from_fitted", checker.full_from.is_some().into());
+}
+
+/// Runs the items of a line, whose colours the emulator has computed, through the module.
+fn compare<W: Stock>(rtl: &mut Model, line: &Line<W>, random: &mut Random) {
+    let pace = Pace::random(random, line.len());
+    let timing = (SHADER_LATENCY.into(), SHADER_LATENCY as usize + 1);
+    let [entry, denominator] = ["in_entry", "in_denominator"].map(|name| rtl.port(name));
+    let [ground_x, ground_z] = ["in_ground_x", "in_ground_z"].map(|name| rtl.port(name));
+    let in_tag = rtl.port("in_tag");
+    let [out_color, out_hit, out_tag] =
+        ["out_color", "out_hit", "out_tag"].map(|name| rtl.port(name));
+    elastic::run(
+        rtl,
+        &pace,
+        timing,
+        |rtl, item| {
+            let Some(i) = item else {
+                rtl.set(entry, random.bits() & 3);
+                rtl.set(denominator, random.bits() >> (64 - W::WIDTH));
+                return;
+            };
+            rtl.set(entry, line.entry[i] as u64);
+            rtl.set_signed(denominator, bits(line.denominator[i]));
+            rtl.set_signed(ground_x, bits(line.ground_x[i]));
+            rtl.set_signed(ground_z, bits(line.ground_z[i]));
+            rtl.set(in_tag, i as u64 & TAG);
+        },
+        |rtl, i| {
+            assert_eq!(rtl.get(out_tag), i as u64 & TAG);
+            assert_eq!(rtl.get(out_hit), line.hit[i] as u64);
+            assert_eq!(
+                rtl.get(out_color),
+                packed(line.color[i]),
+                "item {i}: {:?}, denominator {:?}, place {:?} {:?}",
+                line.entry[i],
+                line.denominator[i],
+                line.ground_x[i],
+                line.ground_z[i]
+            );
+        },
+    );
+}
+
+/// A plane, its colours and where it is seen from, as a scene file gives them.
+fn views(random: &mut Random) -> Vec<String> {
+    let mut between = |low, high| random.within(low, high) as f64;
+    let normal = [between(-30, 30) / 100.0, 1.0, between(-30, 30) / 100.0];
+    let (height, pitch, roll) = (between(1, 400) / 10.0, between(-60, 5), between(-40, 40));
+    let square = [0.25, 1.0, 8.0, 300.0][between(0, 3) as usize];
+    let mut color = || [(); 3].map(|()| between(0, 255));
+    let (even, odd) = (color(), color());
+    vec![
+        format!("surface.normal={normal:?}"),
+        format!("surface.checker={square}"),
+        format!("camera.position=[0.0, {height}, 0.0]"),
+        format!("camera.pitch={pitch}"),
+        format!("camera.roll={roll}"),
+        format!(
+            "color.checker=[{:?}, {:?}]",
+            even.map(|byte| byte as u8),
+            odd.map(|byte| byte as u8)
+        ),
+    ]
+}
+
+fn real_frames<W: Stock>(world: W, seed: u64) {
+    let mut random = Random(seed);
+    let mut rtl = Model::new(W::MODEL);
+    let mut met = 0;
+    for _ in 0..16 {
+        let sets = views(&mut random);
+        let mut scene = load(Some("plane"), &sets).expect("a scene");
+        scene.machine.words = W::WORDS;
+        scene.screens[0] = scene.screens[0].resized(64, 48);
+        // Some planes have positions too fine for the smaller words.
+        let Ok(plan) = Plan::new(&scene, None, false) else { continue };
+        let memory = Memory::new(&world, &scene, &plan).expect("no memory");
+        let setup = Setup::new(world, &scene, &plan, memory.as_ref()).expect("a set-up");
+        let Back::Plane(checker) = &setup.back else { panic!("a plane") };
+        load_coefficients(&mut rtl, checker);
+        let mut processor = Processor::new(&setup);
+        let mut line = processor.wires();
+        while processor.run_line(&mut line) {
+            compare(&mut rtl, &line, &mut random);
+            met += line.entry.iter().filter(|&&entry| entry == Entry::Met).count();
+        }
+    }
+    assert!(met > 10_000, "{met} pixels meet a plane");
+}
+
+#[test]
+fn real_frames_narrow() {
+    real_frames(Narrow, 1);
+}
+
+#[test]
+fn real_frames_wide() {
+    real_frames(Wide, 2);
+}
+
+/// Coefficients anywhere in their ranges, and the largest denominator below full contrast.
+fn hostile_checker<W: Stock>(world: W, random: &mut Random) -> (Checker<W>, i64) {
+    let one = 1_i64 << W::Tone::FRACTION;
+    let largest = i64::MAX >> (64 - W::WIDTH);
+    let byte = |random: &mut Random| [0, 255, random.within(0, 255)][random.within(0, 2) as usize];
+    let mut color = || [byte(random), byte(random), byte(random)];
+    let (even, odd) = (color(), color());
+    let flat = Flat {
+        sky: color().map(|byte| byte as u8),
+        far: color().map(|byte| byte as u8),
+        side: [0; 3],
+    };
+    let half = |levels: i64| word(levels * (one / 2));
+    let exponents = [(-128, 127), (-30, 40), (-3, 3)][random.within(0, 2) as usize];
+    let exponent = random.within(exponents.0, exponents.1) as i32;
+    // What the exponent leaves at most at 2.
+    let two = 2_i128 << W::View::FRACTION;
+    let limit = if exponent >= 0 { two >> exponent.min(100) } else { two << (-exponent).min(60) };
+    let limit = limit.min(largest.into()) as i64;
+    let full = if limit < largest || random.is(128) {
+        Some(match random.within(0, 2) {
+            0 => limit,
+            _ => random.within(0, limit),
+        })
+    } else {
+        None
+    };
+    let gain = [0, one, 2 * one, random.within(0, 2 * one)][random.within(0, 3) as usize];
+    let checker = Checker {
+        flat,
+        mean: std::array::from_fn(|at| half(even[at] + odd[at])),
+        swing: std::array::from_fn(|at| half(even[at] - odd[at])),
+        contrast_exponent: exponent,
+        contrast_gain: word(gain),
+        one: word(one),
+        full_from: full.map(word),
+        format: world.tone(Register::Shade),
+    };
+    (checker, full.map_or(limit, |full| (full - 1).max(0)))
+}
+
+fn hostile<W: Stock>(world: W, seed: u64) {
+    const ITEMS: u32 = 2000;
+    let mut random = Random(seed);
+    let mut rtl = Model::new(W::MODEL);
+    let largest = i64::MAX >> (64 - W::WIDTH);
+    for _ in 0..60 {
+        let (checker, below) = hostile_checker(world, &mut random);
+        load_coefficients(&mut rtl, &checker);
+        let mut line = Line::new(&world, 0..ITEMS);
+        for i in 0..line.len() {
+            line.entry[i] = match random.within(0, 7) {
+                0 => Entry::Sky,
+                1 => Entry::Far,
+                _ => Entry::Met,
+            };
+            let full = checker.full_from.map_or(0, bits);
+            line.denominator[i] = word(match line.entry[i] {
+                Entry::Met => match random.within(0, 9) {
+                    0 => below,
+                    1 if checker.full_from.is_some() => full,
+                    2 if checker.full_from.is_some() => random.within(full, largest),
+                    3 => (below / 2 + random.within(-1, 1)).clamp(0, below),
+                    4 => random.within(0, below) >> random.within(0, 40),
+                    _ => random.within(0, below),
+                },
+                _ => random.word(W::WIDTH),
+            });
+            line.ground_x[i] = word(random.word(W::WIDTH));
+            line.ground_z[i] = word(random.word(W::WIDTH));
+        }
+        checker.run(&mut line);
+        compare(&mut rtl, &line, &mut random);
+    }
+}
+
+#[test]
+fn hostile_items_narrow() {
+    hostile(Narrow, 3);
+}
+
+#[test]
+fn hostile_items_wide() {
+    hostile(Wide, 4);
+}

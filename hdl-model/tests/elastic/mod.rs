@@ -1,0 +1,148 @@
+//! Items through one elastic unit that works one cycle on each: what comes out, and in which cycle
+//! (equation 28), between a source and a sink that take their time.
+
+use terraline_hdl::Model;
+
+/// Random numbers from a seed (SplitMix64).
+#[derive(Clone, Debug)]
+pub struct Random(pub u64);
+
+impl Random {
+    /// 64 random bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ mixed >> 31
+    }
+
+    /// A number from `low` to `high`, both included.
+    pub fn within(&mut self, low: i64, high: i64) -> i64 {
+        let count = (i128::from(high) - i128::from(low) + 1) as u128;
+        (i128::from(low) + (u128::from(self.bits()) % count) as i128) as i64
+    }
+
+    /// Whether one of `chance` cases of 256 comes up.
+    pub fn is(&mut self, chance: i64) -> bool {
+        self.within(0, 255) < chance
+    }
+
+    /// A signed word that is hostile more often than not: ends, small values, powers of two and
+    /// their neighbours, or random bits below a random leading one.
+    pub fn word(&mut self, width: u32) -> i64 {
+        let (low, high) = (i64::MIN >> (64 - width), i64::MAX >> (64 - width));
+        let magnitude = 1_i64 << self.within(0, i64::from(width) - 2);
+        let word = match self.within(0, 7) {
+            0 => *[low, low + 1, high, high - 1, 0, 1, -1, -2]
+                .get(self.within(0, 7) as usize)
+                .unwrap_or(&0),
+            1 | 2 => magnitude + self.within(-1, 1),
+            _ => magnitude | self.within(0, magnitude - 1),
+        };
+        if word != low && self.is(128) { -word } else { word }
+    }
+}
+
+/// How source and sink behave.
+#[derive(Clone, Debug)]
+pub struct Pace {
+    /// By item, the first cycle in which the source has it.
+    arrivals: Vec<u64>,
+    seed: u64,
+    /// Cycles of 256 in which the sink does not take anything.
+    stalls: i64,
+    /// As a power of two, cycles that the sink's mood lasts.
+    mood: u32,
+}
+
+impl Pace {
+    /// A random pace for so many items: full speed, gaps and stalls of all kinds.
+    pub fn random(random: &mut Random, items: usize) -> Self {
+        let [gaps, stalls] = [(); 2].map(|()| [0, 0, 32, 128, 224][random.within(0, 4) as usize]);
+        let mut cycle = random.within(1, 20) as u64;
+        let arrivals = (0..items)
+            .map(|_| {
+                cycle += 1;
+                while random.is(gaps) {
+                    cycle += random.within(1, 3) as u64;
+                }
+                cycle
+            })
+            .collect();
+        Self { arrivals, seed: random.bits(), stalls, mood: random.within(0, 5) as u32 }
+    }
+
+    /// Whether the sink takes an item in this cycle.
+    fn ready(&self, cycle: u64) -> bool {
+        !Random(self.seed ^ cycle >> self.mood).is(self.stalls)
+    }
+}
+
+/// The cycles of a unit's items by equation 28: taken by it, visible behind it, taken from it.
+struct Times {
+    taken: Vec<u64>,
+    visible: Vec<u64>,
+    left: Vec<u64>,
+}
+
+impl Times {
+    fn new(pace: &Pace, latency: u64, depth: usize) -> Self {
+        let mut times = Self { taken: Vec::new(), visible: Vec::new(), left: Vec::new() };
+        for (item, &arrival) in pace.arrivals.iter().enumerate() {
+            let free = times.taken.last().map_or(0, |before| before + 1);
+            let room = item.checked_sub(depth).map_or(0, |before| times.left[before] + 1);
+            let taken = arrival.max(free).max(room);
+            let behind = times.left.last().map_or(0, |before| before + 1);
+            let visible = (taken + latency).max(behind);
+            let left = (visible..).find(|&cycle| pace.ready(cycle)).unwrap_or(u64::MAX);
+            times.taken.push(taken);
+            times.visible.push(visible);
+            times.left.push(left);
+        }
+        times
+    }
+}
+
+/// Resets the unit and runs all items of the pace through it. `put` drives the ports of an item,
+/// also of items that the unit must not take (then with `None`); `check` compares what came out.
+///
+/// # Panics
+/// If anything comes in another cycle than equation 28 says.
+pub fn run(
+    unit: &mut Model,
+    pace: &Pace,
+    (latency, depth): (u64, usize),
+    mut put: impl FnMut(&mut Model, Option<usize>),
+    mut check: impl FnMut(&Model, usize),
+) {
+    let [reset, in_valid, out_ready] =
+        ["reset", "in_valid", "out_ready"].map(|name| unit.port(name));
+    let [in_ready, out_valid] = ["in_ready", "out_valid"].map(|name| unit.port(name));
+    let times = Times::new(pace, latency, depth);
+    unit.set(in_valid, 0);
+    unit.set(reset, 1);
+    unit.edge();
+    unit.set(reset, 0);
+    let (mut entering, mut leaving) = (0, 0);
+    let mut cycle = 0;
+    while leaving < times.left.len() {
+        let offered = pace.arrivals.get(entering).is_some_and(|&arrival| arrival <= cycle);
+        unit.set(in_valid, offered.into());
+        put(unit, offered.then_some(entering));
+        unit.set(out_ready, pace.ready(cycle).into());
+        unit.settle();
+        let visible = times.visible[leaving] <= cycle;
+        assert_eq!(unit.is(out_valid), visible, "item {leaving} in cycle {cycle}");
+        if offered {
+            let taken = times.taken[entering] == cycle;
+            assert_eq!(unit.is(in_ready), taken, "item {entering} in cycle {cycle}");
+            entering += usize::from(taken);
+        }
+        if visible {
+            check(unit, leaving);
+            leaving += usize::from(times.left[leaving] == cycle);
+        }
+        unit.edge();
+        cycle += 1;
+    }
+}

@@ -1,0 +1,308 @@
+//! The shader against the emulator's, in every bit and cycle: real frames of many lights and ramps,
+//! and hostile coefficients and items within the ranges that the module states.
+#![cfg(rtl)]
+
+mod elastic;
+
+use std::sync::Arc;
+
+use elastic::{Pace, Random};
+use terraline::frame::Hit;
+use terraline::plan::Plan;
+use terraline::processor::Processor;
+use terraline::scene::{WordSize, load};
+use terraline::setup::table::SHADER_LATENCY;
+use terraline::setup::{Back, Memory, Setup};
+use terraline::unit::Line;
+use terraline::unit::color::Flat;
+use terraline::unit::shader::{Light, Ramp, TerrainShader};
+use terraline::word::stock::{Narrow, Wide};
+use terraline::word::{Complete, Lane, Register};
+use terraline_hdl::Model;
+
+/// Entries per unit of the table, as a power of two.
+const RSQRT_LOG2: u32 = 10;
+const TAG: u64 = 0xffff;
+
+/// A world of words that are integers of up to 64 bits.
+trait Stock:
+    Complete<Height: Lane<Int: Into<i64> + TryFrom<i64>>, Tone: Lane<Int: Into<i64> + TryFrom<i64>>>
+{
+    const MODEL: &'static str;
+    const WORDS: WordSize;
+    const WIDTH: u32;
+}
+
+impl Stock for Narrow {
+    const MODEL: &'static str = "shader_narrow";
+    const WORDS: WordSize = WordSize::Narrow;
+    const WIDTH: u32 = 32;
+}
+
+impl Stock for Wide {
+    const MODEL: &'static str = "shader_wide";
+    const WORDS: WordSize = WordSize::Wide;
+    const WIDTH: u32 = 64;
+}
+
+fn word<T: Lane<Int: TryFrom<i64>>>(bits: i64) -> T {
+    let Ok(int) = T::Int::try_from(bits) else { panic!("{bits} is wider than a word") };
+    T::of_int(int)
+}
+
+fn bits<T: Lane<Int: Into<i64>>>(word: T) -> i64 {
+    word.int().into()
+}
+
+fn packed(color: [u8; 3]) -> u64 {
+    let [red, green, blue] = color.map(u64::from);
+    red | green << 8 | blue << 16
+}
+
+/// Drives the coefficient ports and fills the tables.
+fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &TerrainShader<W>) {
+    let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
+    set("sky_color", packed(shader.flat.sky) as i64);
+    set("far_color", packed(shader.flat.far) as i64);
+    set("side_color", packed(shader.flat.side) as i64);
+    set("lit", shader.light.is_some().into());
+    if let Some(light) = &shader.light {
+        assert_eq!(light.rsqrt_log2, RSQRT_LOG2);
+        for (name, toward) in ["toward_x", "toward_y", "toward_z"].into_iter().zip(light.toward) {
+            set(name, bits(toward));
+        }
+        set("ambient", bits(light.ambient));
+    }
+    let ramp = &shader.ramp;
+    set("ramp_exponent", ramp.exponent.clamp(-128, 127).into());
+    set("ramp_gain", bits(ramp.gain));
+    set("ramp_last", ramp.segments.len() as i64 - 1);
+    let [address, data] = ["load_address", "load_data"].map(|name| rtl.port(name));
+    let [load_rsqrt, load_ramp] = ["load_rsqrt", "load_ramp"].map(|name| rtl.port(name));
+    let mut write = |strobe, at: usize, value: i64| {
+        rtl.set(strobe, 1);
+        rtl.set(address, at as u64);
+        rtl.set_signed(data, value);
+        rtl.edge();
+        rtl.set(strobe, 0);
+    };
+    for light in &shader.light {
+        for (at, &entry) in light.rsqrt.iter().enumerate() {
+            write(load_rsqrt, at, bits(entry));
+        }
+    }
+    for (segment, channels) in ramp.segments.iter().enumerate() {
+        for (channel, &(start, rise)) in channels.iter().enumerate() {
+            write(load_ramp, segment * 8 + channel * 2, bits(start));
+            write(load_ramp, segment * 8 + channel * 2 + 1, bits(rise));
+        }
+    }
+}
+
+/// Runs the items of a line, whose colours the emulator has computed, through the module.
+fn compare<W: Stock>(rtl: &mut Model, line: &Line<W>, random: &mut Random) {
+    let pace = Pace::random(random, line.len());
+    let timing = (SHADER_LATENCY.into(), SHADER_LATENCY as usize + 1);
+    let [hit, surface] = ["in_hit", "in_surface"].map(|name| rtl.port(name));
+    let [slope_x, slope_z] = ["in_slope_x", "in_slope_z"].map(|name| rtl.port(name));
+    let in_tag = rtl.port("in_tag");
+    let [out_color, out_hit, out_tag] =
+        ["out_color", "out_hit", "out_tag"].map(|name| rtl.port(name));
+    elastic::run(
+        rtl,
+        &pace,
+        timing,
+        |rtl, item| {
+            let Some(i) = item else {
+                rtl.set(hit, random.bits() & 3);
+                rtl.set(surface, random.bits() >> (64 - W::WIDTH));
+                return;
+            };
+            rtl.set(hit, line.hit[i] as u64);
+            rtl.set_signed(surface, bits(line.surface[i]));
+            rtl.set_signed(slope_x, bits(line.slope_x[i]));
+            rtl.set_signed(slope_z, bits(line.slope_z[i]));
+            rtl.set(in_tag, i as u64 & TAG);
+        },
+        |rtl, i| {
+            assert_eq!(rtl.get(out_tag), i as u64 & TAG);
+            assert_eq!(rtl.get(out_hit), line.hit[i] as u64);
+            assert_eq!(
+                rtl.get(out_color),
+                packed(line.color[i]),
+                "item {i}: {:?}, surface {:?}, slopes {:?} {:?}",
+                line.hit[i],
+                line.surface[i],
+                line.slope_x[i],
+                line.slope_z[i]
+            );
+        },
+    );
+}
+
+/// A direction of the light, an ambient share and a ramp, as a scene file gives them.
+fn looks(random: &mut Random) -> Vec<String> {
+    let mut axis = || random.within(-100, 100) as f64 / 100.0;
+    let (x, y, z) = (axis(), axis(), axis());
+    let ambient = [0.0, 0.3, 0.95, 1.0][random.within(0, 3) as usize];
+    let byte = |random: &mut Random| [0, 255, random.within(0, 255)][random.within(0, 2) as usize];
+    let colors: Vec<String> = (0..random.within(2, 16))
+        .map(|_| format!("[{}, {}, {}]", byte(random), byte(random), byte(random)))
+        .collect();
+    vec![
+        format!("light.direction=[{x}, {y}, {z}]"),
+        format!("light.ambient={ambient}"),
+        format!("color.ramp=[{}]", colors.join(", ")),
+    ]
+}
+
+fn real_frames<W: Stock>(world: W, seed: u64) {
+    let mut random = Random(seed);
+    let mut rtl = Model::new(W::MODEL);
+    let kernels: [&[&str]; 3] =
+        [&[], &["kernel.deformation=1", "kernel.shape=hat"], &["surface.height.scale=0.4"]];
+    for name in ["overview", "flight", "valley"] {
+        for kernel in kernels {
+            let mut sets = looks(&mut random);
+            sets.extend(kernel.iter().map(ToString::to_string));
+            let mut scene = load(Some(name), &sets).expect("a scene");
+            scene.machine.words = W::WORDS;
+            scene.screens[0] = scene.screens[0].resized(64, 48);
+            // The eye may be under ground that is raised.
+            scene.camera.position.y += 120.0;
+            let plan = Plan::new(&scene, None, false).expect("a plan");
+            let memory = Memory::new(&world, &scene, &plan).expect("a memory");
+            let setup = Setup::new(world, &scene, &plan, memory.as_ref()).expect("a set-up");
+            let Back::Terrain(units) = &setup.back else { panic!("{name} is a height map") };
+            load_coefficients(&mut rtl, &units.shader);
+            let mut processor = Processor::new(&setup);
+            let mut line = processor.wires();
+            while processor.run_line(&mut line) {
+                compare(&mut rtl, &line, &mut random);
+            }
+        }
+    }
+}
+
+#[test]
+fn real_frames_narrow() {
+    real_frames(Narrow, 1);
+}
+
+#[test]
+fn real_frames_wide() {
+    real_frames(Wide, 2);
+}
+
+/// Coefficients anywhere in their ranges.
+fn hostile_shader<W: Stock>(world: W, random: &mut Random) -> TerrainShader<W> {
+    let one = 1_i64 << W::Tone::FRACTION;
+    let toward = |random: &mut Random| match random.within(0, 5) {
+        0 => one,
+        1 => -one,
+        2 => [0, 1, -1, one - 1][random.within(0, 3) as usize],
+        _ => random.within(-one, one),
+    };
+    let ambient = [0, 1, one, random.within(0, one)][random.within(0, 3) as usize];
+    let largest = [one, 2 * one][random.within(0, 1) as usize];
+    let rsqrt = (0..=4 << RSQRT_LOG2).map(|_| word(random.within(0, largest))).collect();
+    let light = Light {
+        toward: std::array::from_fn(|_| word(toward(random))),
+        ambient: word(ambient),
+        one: word(one),
+        rsqrt: Arc::new(rsqrt),
+        rsqrt_log2: RSQRT_LOG2,
+        normal_format: world.tone(Register::Normal),
+    };
+    let color = |random: &mut Random| {
+        let byte =
+            |random: &mut Random| [0, 255, random.within(0, 255)][random.within(0, 2) as usize];
+        [byte(random), byte(random), byte(random)]
+    };
+    let bytes = |random: &mut Random| color(random).map(|byte| byte as u8);
+    let colors: Vec<_> = (0..random.within(2, 16)).map(|_| color(random)).collect();
+    let segments = colors
+        .windows(2)
+        .map(|pair| {
+            std::array::from_fn(|at| {
+                (word(pair[0][at] * one), word((pair[1][at] - pair[0][at]) * one))
+            })
+        })
+        .collect();
+    let exponents = [(-128, 127), (-70, 30), (-12, 0), (0, 22)][random.within(0, 3) as usize];
+    TerrainShader {
+        flat: Flat { sky: bytes(random), far: bytes(random), side: bytes(random) },
+        light: random.is(230).then_some(light),
+        ramp: Ramp {
+            exponent: random.within(exponents.0, exponents.1) as i32,
+            gain: word(match random.within(0, 5) {
+                0 => 0,
+                1 => 30 * one,
+                _ => random.within(0, 30 * one),
+            }),
+            segments,
+            format: world.tone(Register::Ramp),
+        },
+    }
+}
+
+/// A height that comes to a value in [-2, 2) on its way to the ramp.
+fn hostile_height<W: Stock>(exponent: i32, random: &mut Random) -> i64 {
+    let two = 2_i128 << W::Tone::FRACTION;
+    let shifted = match random.within(0, 5) {
+        0 => [0, 1, -1, two / 2, two - 1, -two][random.within(0, 5) as usize],
+        _ => i128::from(random.within(-(two as i64), two as i64 - 1)),
+    };
+    let height = if exponent >= 0 {
+        shifted / (1 << exponent.min(100))
+    } else {
+        let places = (-exponent).min(90);
+        let low = i128::from(random.bits()) & ((1 << places.min(64)) - 1);
+        (shifted << places) + low - (1 << (places - 1))
+    };
+    let limit = i64::MAX >> (64 - W::WIDTH);
+    let height = height.clamp(i128::from(-limit - 1), limit.into()) as i64;
+    // The roundings upward at the upper end.
+    let up = if exponent < 0 { 1_i128 << (-exponent - 1).min(100) } else { 0 };
+    let over = (i128::from(height) + up) >> (-exponent).clamp(0, 100);
+    if over < two { height } else { 0 }
+}
+
+fn hostile<W: Stock>(world: W, seed: u64) {
+    const ITEMS: u32 = 2000;
+    let mut random = Random(seed);
+    let mut rtl = Model::new(W::MODEL);
+    for _ in 0..40 {
+        let shader = hostile_shader(world, &mut random);
+        load_coefficients(&mut rtl, &shader);
+        let mut line = Line::new(&world, 0..ITEMS);
+        let flat = random.within(0, 1) * 3;
+        for i in 0..line.len() {
+            // Every other set of items is mostly surface.
+            line.hit[i] = match random.within(0, 3 + flat) {
+                0 => Hit::Sky,
+                2 => Hit::Side,
+                3 => Hit::Far,
+                _ => Hit::Surface,
+            };
+            line.surface[i] = word(match line.hit[i] {
+                Hit::Surface => hostile_height::<W>(shader.ramp.exponent, &mut random),
+                _ => random.word(W::WIDTH),
+            });
+            line.slope_x[i] = word(random.word(W::WIDTH));
+            line.slope_z[i] = word(random.word(W::WIDTH));
+        }
+        shader.run(&mut line);
+        compare(&mut rtl, &line, &mut random);
+    }
+}
+
+#[test]
+fn hostile_items_narrow() {
+    hostile(Narrow, 3);
+}
+
+#[test]
+fn hostile_items_wide() {
+    hostile(Wide, 4);
+}

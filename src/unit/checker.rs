@@ -1,0 +1,90 @@
+//! The checker: the colour of a pixel of a plane.
+//!
+//! *In hardware*: the parity of the square, faded to the mean of the two colours where squares
+//! become smaller than pixels (equation 27 of docs/mathematics.md). It stands where height maps
+//! have the shader.
+//!
+//! | wire in | wire out |
+//! |---|---|
+//! | `entry`, `ground_x`, `ground_z`, `denominator` | `hit`, `color` |
+//!
+//! *Cycles*: one pixel per cycle. *Never*: divides.
+
+use super::Line;
+use super::color::{Flat, byte};
+use super::line::Entry;
+use crate::frame::Hit;
+use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Word, World};
+
+/// The checker: the shader of planes.
+#[derive(Clone, Debug)]
+pub struct Checker<W: World> {
+    /// Constant colours.
+    pub flat: Flat,
+    /// Mean of the two colours.
+    pub mean: [W::Tone; 3],
+    /// Half their difference.
+    pub swing: [W::Tone; 3],
+    /// Exponent and gain that turn the denominator into contrast plus one.
+    pub contrast_exponent: i32,
+    /// See `contrast_exponent`.
+    pub contrast_gain: W::Tone,
+    /// One.
+    pub one: W::Tone,
+    /// The denominator from which on contrast is full: larger ones are not scaled. Absent where no
+    /// pixel of the screen reaches it.
+    pub full_from: Option<W::View>,
+    /// Format of the contrast.
+    pub format: <W::Tone as Word>::Format,
+}
+
+impl<W: Shading> Checker<W> {
+    /// Drives `hit` and `color` of one line.
+    pub fn run(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            (line.hit[i], line.color[i]) = match line.entry[i] {
+                Entry::Sky => (Hit::Sky, self.flat.sky),
+                Entry::Far => (Hit::Far, self.flat.far),
+                Entry::Met => {
+                    let site = Site::pixel(line.number, line.column[i]);
+                    let contrast = self.contrast(line.denominator[i], site);
+                    let odd = (line.ground_x[i].cell() ^ line.ground_z[i].cell()) & 1 == 1;
+                    (Hit::Surface, self.color(contrast, odd, site))
+                }
+            };
+        }
+    }
+
+    /// Contrast of the squares: 1 where a pixel covers at most a quarter of a square along the
+    /// view, 0 where it covers a whole one (equation 27).
+    #[inline(always)]
+    pub fn contrast(&self, denominator: W::View, site: Site) -> W::Tone {
+        if self.full_from.is_some_and(|full| denominator >= full) {
+            return self.one;
+        }
+        let site = site.at(Register::Shade);
+        let scaled: W::Tone = denominator.rescale(self.contrast_exponent, self.format, site);
+        let scaled = scaled.multiply(self.contrast_gain, site.step(1));
+        let contrast = scaled - self.one;
+        if contrast > self.one {
+            self.one
+        } else if contrast.sign() > 0 {
+            contrast
+        } else {
+            W::Tone::zero(self.format)
+        }
+    }
+
+    /// Colour of a square at a contrast.
+    #[inline(always)]
+    fn color(&self, contrast: W::Tone, odd: bool, site: Site) -> [u8; 3] {
+        let site = site.at(Register::Channel);
+        let mut color = [0; 3];
+        let channels = self.mean.iter().zip(&self.swing).zip(0..);
+        for (out, ((&mean, &swing), at)) in color.iter_mut().zip(channels) {
+            let swing = swing.multiply(contrast, site.step(at));
+            *out = byte(if odd { mean - swing } else { mean + swing });
+        }
+        color
+    }
+}

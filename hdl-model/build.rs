@@ -21,6 +21,13 @@ struct Model {
     parameters: &'static [&'static str],
 }
 
+impl Model {
+    /// Whether it can write a trace: only whole machines can.
+    fn traces(&self) -> bool {
+        self.top == "terraline"
+    }
+}
+
 const fn model(
     name: &'static str,
     top: &'static str,
@@ -33,8 +40,6 @@ const fn model(
 const MODELS: &[Model] = &[
     model("queue_1", "queue", &["WIDTH=16", "DEPTH=1"]),
     model("queue_5", "queue", &["WIDTH=16", "DEPTH=5"]),
-    model("projector_narrow", "projector", &["WIDE=0"]),
-    model("projector_wide", "projector", &["WIDE=1"]),
     model("divider_narrow", "divider", &["WIDE=0"]),
     model("divider_wide", "divider", &["WIDE=1"]),
     model("divider_serial_narrow", "divider", &["WIDE=0", "SERIAL=1"]),
@@ -43,6 +48,10 @@ const MODELS: &[Model] = &[
     model("shader_wide", "shader", &["WIDE=1", "TAG=16"]),
     model("checkers_narrow", "checkers", &["WIDE=0", "TAG=16"]),
     model("checkers_wide", "checkers", &["WIDE=1", "TAG=16"]),
+    model("plane_narrow", "terraline", &["WIDE=0", "TERRAIN=0"]),
+    model("plane_wide", "terraline", &["WIDE=1", "TERRAIN=0"]),
+    model("plane_narrow_serial", "terraline", &["WIDE=0", "TERRAIN=0", "SERIAL=1"]),
+    model("plane_wide_serial", "terraline", &["WIDE=1", "TERRAIN=0", "SERIAL=1"]),
 ];
 
 fn main() {
@@ -91,36 +100,52 @@ fn build(include: &Path) {
         .collect();
     // The package comes first: the others use it.
     sources.sort_by_key(|path| (!path.ends_with("terraline_pkg.sv"), path.clone()));
-    let mut cpp = cc::Build::new();
-    cpp.cpp(true).std("c++17").include(include).include("shim").warnings(false).opt_level(2);
+    let compiler = |level| {
+        let mut cpp = cc::Build::new();
+        cpp.cpp(true).std("c++17").include(include).include("shim").warnings(false).debug(false);
+        cpp.opt_level(level);
+        cpp
+    };
+    // What runs in every cycle, and what runs once.
+    let (mut often, mut once) = (compiler(1), compiler(0));
     let mut table = String::from("#include \"model.hpp\"\n");
     let mut rows = String::new();
     for model in MODELS {
         let folder = out.join(model.name);
         verilate(model, &sources, &folder);
-        cpp.include(&folder);
+        often.include(&folder);
+        once.include(&folder);
         let prefix = format!("V{}", model.name);
+        // One file each: most of the time goes into Verilator's headers.
+        let (mut fast, mut slow) = (String::new(), String::new());
         for entry in fs::read_dir(&folder).expect("verilator made the folder") {
-            let path = entry.expect("a readable folder").path();
-            if path.extension().is_some_and(|extension| extension == "cpp") {
-                cpp.file(path);
+            let name = entry.expect("a readable folder").file_name();
+            let name = name.to_string_lossy();
+            if name.ends_with(".cpp") {
+                let runs_once = name.contains("Slow") || name.contains("Trace");
+                let file = if runs_once { &mut slow } else { &mut fast };
+                let _ = writeln!(file, "#include \"{name}\"");
             }
         }
         let header = fs::read_to_string(folder.join(format!("{prefix}.h")))
             .expect("verilator made the model's header");
-        let shim = folder.join(format!("shim_{}.cpp", model.name));
-        fs::write(&shim, ports(model.name, &prefix, &header)).expect("OUT_DIR is writable");
+        slow.push_str(&ports(model, &prefix, &header));
+        for (build, kind, text) in [(&mut often, "fast", fast), (&mut once, "slow", slow)] {
+            let file = out.join(format!("{}_{kind}.cpp", model.name));
+            fs::write(&file, text).expect("OUT_DIR is writable");
+            build.file(file);
+        }
         let _ = writeln!(table, "Model *make_{}();", model.name);
         let _ = writeln!(rows, "    {{\"{}\", make_{}}},", model.name, model.name);
-        cpp.file(shim);
     }
     let _ = write!(table, "const Row rows[] = {{\n{rows}    {{nullptr, nullptr}},\n}};\n");
     let rows = out.join("models.cpp");
     fs::write(&rows, table).expect("OUT_DIR is writable");
     for runtime in ["verilated.cpp", "verilated_threads.cpp", "verilated_fst_c.cpp"] {
-        cpp.file(include.join(runtime));
+        often.file(include.join(runtime));
     }
-    cpp.file(rows).file("shim/model.cpp").compile("terraline_rtl");
+    once.file(rows).file("shim/model.cpp").compile("terraline_rtl_once");
+    often.compile("terraline_rtl");
     println!("cargo::rustc-link-lib=z");
 }
 
@@ -131,11 +156,14 @@ fn verilate(model: &Model, sources: &[PathBuf], folder: &Path) {
     }
     let mut command = Command::new("verilator");
     command
-        .args(["--cc", "--trace-fst", "--trace-structs", "-Wall", "-O3", "--x-assign", "fast"])
+        .args(["--cc", "-Wall", "-O3", "--x-assign", "fast", "--output-split", "0"])
         .args(["--top-module", model.top, "--prefix", &format!("V{}", model.name), "--Mdir"])
         .arg(folder)
         .arg("rtl/waivers.vlt")
         .args(sources);
+    if model.traces() {
+        command.arg("--trace-fst");
+    }
     for parameter in model.parameters {
         command.arg(format!("-G{parameter}"));
     }
@@ -146,10 +174,11 @@ fn verilate(model: &Model, sources: &[PathBuf], folder: &Path) {
 }
 
 /// The list of a model's ports, from the declarations in its header: `VL_IN8(&clock,0,0);`.
-fn ports(name: &str, prefix: &str, header: &str) -> String {
+fn ports(model: &Model, prefix: &str, header: &str) -> String {
+    let (name, traces) = (model.name, model.traces());
     let mut out = format!(
         "#include \"{prefix}.h\"\n#include \"model.hpp\"\n\n\
-         Model *make_{name}() {{\n    auto *made = new Made<{prefix}>();\n    \
+         Model *make_{name}() {{\n    auto *made = new Made<{prefix}, {traces}>();\n    \
          auto &m = made->rtl;\n"
     );
     for line in header.lines() {

@@ -9,10 +9,9 @@ module raster (
     input  logic [15:0] lines,        // scan lines, at least one
     input  logic        step,         // the pixel is taken at this edge
     output logic        running,      // there is a pixel to be taken
-    output logic        last_column,  // it is the last of its line
-    output logic [15:0] column,       // its column from the left
-    output logic [15:0] line          // its line from the top
+    output logic        last_column   // it is the last of its line
 );
+  logic [15:0] column, line;
   logic last_line;
 
   assign last_column = column == columns - 16'd1;

@@ -53,7 +53,7 @@ void rtl_set(Model *model, uint32_t port, uint32_t word, uint64_t value) {
     }
 }
 
-void rtl_open_trace(Model *model, const char *path) { model->open_trace(path); }
+bool rtl_open_trace(Model *model, const char *path) { return model->open_trace(path); }
 
 void rtl_dump(Model *model, uint64_t time) { model->trace->dump(time); }
 

@@ -23,15 +23,16 @@ struct Model {
 
     virtual ~Model() = default;
     virtual void eval() = 0;
-    virtual void open_trace(const char *path) = 0;
+    // Whether the file could be opened.
+    virtual bool open_trace(const char *path) = 0;
 
     template <class T> void add(const char *name, bool input, uint32_t width, T *at) {
         ports.push_back({name, input, width, static_cast<void *>(at)});
     }
 };
 
-// A model of one module.
-template <class Rtl> struct Made : Model {
+// A model of one module; only some can write a trace.
+template <class Rtl, bool traces> struct Made : Model {
     Rtl rtl{&context};
 
     ~Made() override {
@@ -42,11 +43,15 @@ template <class Rtl> struct Made : Model {
         rtl.final();
     }
     void eval() override { rtl.eval(); }
-    void open_trace(const char *path) override {
-        context.traceEverOn(true);
-        trace = new VerilatedFstC;
-        rtl.trace(trace, 99);
-        trace->open(path);
+    bool open_trace(const char *path) override {
+        if constexpr (traces) {
+            context.traceEverOn(true);
+            trace = new VerilatedFstC;
+            rtl.trace(trace, 99);
+            trace->open(path);
+            return trace->isOpen();
+        }
+        return false;
     }
 };
 

@@ -18,7 +18,7 @@ unsafe extern "C" {
     fn rtl_port_is_input(model: *const Opaque, port: u32) -> bool;
     fn rtl_get(model: *const Opaque, port: u32, word: u32) -> u64;
     fn rtl_set(model: *mut Opaque, port: u32, word: u32, value: u64);
-    fn rtl_open_trace(model: *mut Opaque, path: *const c_char);
+    fn rtl_open_trace(model: *mut Opaque, path: *const c_char) -> bool;
     fn rtl_dump(model: *mut Opaque, time: u64);
 }
 
@@ -92,9 +92,8 @@ impl Handle {
     pub fn open_trace(&mut self, path: &str) -> bool {
         let Ok(path) = CString::new(path) else { return false };
         // SAFETY: the path is a C string that outlives the call.
-        unsafe { rtl_open_trace(self.model, path.as_ptr()) }
-        self.tracing = true;
-        true
+        self.tracing = unsafe { rtl_open_trace(self.model, path.as_ptr()) };
+        self.tracing
     }
 
     pub fn dump(&mut self, time: u64) {

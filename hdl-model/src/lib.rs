@@ -6,7 +6,13 @@
 pub mod cli;
 pub mod coefficients;
 #[cfg(rtl)]
+pub mod cosim;
+#[cfg(rtl)]
 mod ffi;
+#[cfg(rtl)]
+pub mod machine;
+#[cfg(rtl)]
+mod memory;
 #[cfg(rtl)]
 mod model;
 pub mod package;

@@ -17,7 +17,16 @@ pub struct Model {
     ports: Vec<Declared>,
     clock: Port,
     cycle: u64,
+    /// It has been evaluated since the clock went low.
+    low: bool,
     trace: bool,
+}
+
+impl Port {
+    /// Bits.
+    pub fn width(self) -> u32 {
+        self.width
+    }
 }
 
 impl Model {
@@ -29,7 +38,7 @@ impl Model {
         let Some(handle) = Handle::new(name) else { panic!("build.rs makes no model {name}") };
         let ports = handle.ports();
         let clock = find(&ports, "clock");
-        let mut model = Self { handle, ports, clock, cycle: 0, trace: false };
+        let mut model = Self { handle, ports, clock, cycle: 0, low: false, trace: false };
         model.set(clock, 0);
         // Without an evaluation at low clock the first edge would be none.
         model.handle.eval();
@@ -101,13 +110,33 @@ impl Model {
         self.handle.get(port.index, at)
     }
 
+    /// Up to 64 bits of a wide port, from bit `low` on.
+    ///
+    /// # Panics
+    /// If the port has no such bits.
+    pub fn bits(&self, port: Port, low: u32, count: u32) -> u64 {
+        assert!(count <= 64 && low + count <= port.width);
+        let (at, within) = (low / 64, low % 64);
+        let mut word = self.handle.get(port.index, at) >> within;
+        if within + count > 64 {
+            word |= self.handle.get(port.index, at + 1) << (64 - within);
+        }
+        word & mask(count)
+    }
+
     /// Lets inputs reach outputs within the cycle.
     pub fn settle(&mut self) {
         self.handle.eval();
+        self.low = true;
     }
 
-    /// The clock's edge, and the start of the next cycle.
+    /// The clock's edge, and the start of the next cycle. Outputs are up to date after
+    /// [`Model::settle`].
     pub fn edge(&mut self) {
+        // The model knows an edge by having seen the clock low.
+        if self.trace || !self.low {
+            self.handle.eval();
+        }
         if self.trace {
             self.handle.dump(2 * self.cycle);
         }
@@ -117,7 +146,7 @@ impl Model {
             self.handle.dump(2 * self.cycle + 1);
         }
         self.set(self.clock, 0);
-        self.handle.eval();
+        self.low = false;
         self.cycle += 1;
     }
 
@@ -129,12 +158,12 @@ impl Model {
     /// Opens an FST trace; nothing is written before [`Model::trace`] is called.
     ///
     /// # Errors
-    /// If the path cannot be passed on.
+    /// If the file cannot be written, or the model cannot write traces.
     pub fn open_trace(&mut self, path: &str) -> Result<(), String> {
         if self.handle.open_trace(path) {
             Ok(())
         } else {
-            Err(format!("{path}: the trace's name holds a zero byte; choose another"))
+            Err(format!("{path}: the trace cannot be written; check its folder"))
         }
     }
 

@@ -1,0 +1,58 @@
+//! Whole frames: every output of every unit and every cycle against the emulator.
+#![cfg(rtl)]
+
+use terraline::clock::Sink;
+use terraline::engine::{FixedWorld, InFixedWorld};
+use terraline::fast::enter::Enterable;
+use terraline::plan::Plan;
+use terraline::scene::{self, Scene};
+use terraline::setup::{Memory, Setup};
+use terraline::word::Complete;
+use terraline_hdl::cosim::{Outcome, compare};
+
+struct Cosimulation<'a> {
+    scene: &'a Scene,
+    plan: &'a Plan,
+    sink: Sink,
+}
+
+impl InFixedWorld for Cosimulation<'_> {
+    type Output = Outcome;
+
+    fn run<W: Complete + Enterable>(self, world: W) -> Outcome {
+        let memory = Memory::new(&world, self.scene, self.plan).expect("memories");
+        let setup = Setup::new(world, self.scene, self.plan, memory.as_ref()).expect("a set-up");
+        compare(&setup, &self.scene.machine, self.sink, None, |_| {}).expect("a frame")
+    }
+}
+
+fn assert_equal(name: &str, sets: &[&str], sink: Sink) {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    let scene = scene::load(Some(name), &sets).expect("a scene");
+    let plan = Plan::new(&scene, None, false).expect("a plan");
+    let world = FixedWorld::of(&scene, &plan).expect("a world");
+    let outcome = world.run(Cosimulation { scene: &scene, plan: &plan, sink });
+    assert!(
+        outcome.is_equal(),
+        "{name} {sets:?} {sink:?}: {} differences, {} cycles for {}\n{}",
+        outcome.differences,
+        outcome.cycles,
+        outcome.expected_cycles,
+        outcome.described.join("\n")
+    );
+}
+
+const BUSY: Sink = Sink::Busy { seed: 11, of_256: 120 };
+
+#[test]
+fn planes() {
+    for set in ["machine.words=narrow", "machine.words=wide"] {
+        for sink in [Sink::Ready, BUSY] {
+            assert_equal("plane", &["screen.size=[160, 120]", set], sink);
+            let sets = ["screen.size=[160, 120]", set, "machine.ratio=serial"];
+            assert_equal("plane", &sets, sink);
+            let sets = ["screen.size=[160, 120]", set, "camera.pitch=-35", "camera.roll=25"];
+            assert_equal("plane", &sets, sink);
+        }
+    }
+}

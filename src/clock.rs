@@ -168,6 +168,13 @@ impl Clock {
         self.last
     }
 
+    /// Unit by unit, the cycle (from 0) in which it took the latest pixel.
+    pub fn entered(&self) -> impl Iterator<Item = u64> + '_ {
+        self.taken
+            .iter()
+            .map(|ring| ring.times[(ring.at + ring.times.len() - 1) % ring.times.len()])
+    }
+
     /// All pixels of a line; hands each completion cycle to `done`.
     pub fn take_line<W: World>(&mut self, line: &Line<W>, mut done: impl FnMut(usize, u64)) {
         for (i, &work) in line.work.iter().enumerate() {

@@ -12,6 +12,7 @@ mod shading;
 pub mod text;
 mod timing;
 mod units;
+mod wires;
 
 use std::path::Path;
 
@@ -28,13 +29,14 @@ use crate::setup::{Back, Memory, Setup, SetupError, TerrainUnits, table};
 use crate::unit::Line;
 use crate::unit::divider::{Divider, Method};
 use crate::unit::shader::PlaneShader;
-use crate::word::{Complete, Register, Rounding};
+use crate::word::{Complete, Overflow, Register, Rounding};
 use hostile::Hostile;
 use scan::Scan;
 use selection::Selection;
 use text::{Header, Sheet, Written};
 use timing::Timing;
-use units::{Unit, Wire};
+use units::Unit;
+use wires::{Wire, notation};
 
 /// Why vectors are not written.
 #[derive(Debug, thiserror::Error)]
@@ -114,18 +116,35 @@ impl Vectors<'_> {
     /// Formats and equations of a unit's registers.
     fn formats<W: Complete>(&self, world: &W, registers: &[Register]) -> Vec<String> {
         let line = |&register: &Register| {
-            let notation = units::notation(world, register);
+            let word = notation(world, register);
             let rule = match self.world {
                 FixedWorld::Sweep(sweep) => {
                     let format = sweep.format(register);
-                    format!("{:?} {:?}", format.rounding, format.overflow).to_lowercase()
+                    format!("{} {}", rounding(format.rounding), overflow(format.overflow))
                 }
                 _ => "nearest wrap".into(),
             };
             let equations = table::entry(register).equations;
-            format!("format {register} {notation} {rule} equations {equations}")
+            format!("format {register} {word} {rule} equations {equations}")
         };
         registers.iter().map(line).collect()
+    }
+}
+
+fn rounding(rounding: Rounding) -> &'static str {
+    match rounding {
+        Rounding::Floor => "floor",
+        Rounding::TowardZero => "toward_zero",
+        Rounding::Nearest => "nearest",
+        Rounding::NearestEven => "nearest_even",
+        Rounding::Stochastic => "stochastic",
+    }
+}
+
+fn overflow(overflow: Overflow) -> &'static str {
+    match overflow {
+        Overflow::Wrap => "wrap",
+        Overflow::Saturate => "saturate",
     }
 }
 
@@ -240,7 +259,7 @@ impl<'a, W: Complete> Behind<'a, W> {
                 shader.run(&mut line, true, |line| units.shader.run(line))
             }
             Self::Plane { unit, checker } => {
-                let mut line = hostile.checker(divider, count);
+                let mut line = hostile.checker(unit, divider, count);
                 checker.run(&mut line, true, |line| unit.run(line))
             }
         }

@@ -9,6 +9,7 @@ use crate::unit::Line;
 use crate::unit::divider::Divider;
 use crate::unit::line::Entry;
 use crate::unit::projector::{Linear, Projector};
+use crate::unit::shader::PlaneShader;
 use crate::unit::stepper::SurfaceUnit;
 use crate::word::format::mix;
 use crate::word::{Complete, Fixed, Load, Readout, Register, Word};
@@ -173,6 +174,33 @@ impl<W: Complete> Hostile<W> {
         (cell << point) + fraction
     }
 
+    /// A view vector, never zero: mostly falling, of any length, along an axis or not.
+    fn ray(&mut self) -> (W::View, W::View, W::View) {
+        let registers = [Register::ViewX, Register::ViewY, Register::ViewZ];
+        let any = self.below(3) == 0;
+        let places = self.below(u64::from(self.fixed(Register::ViewX).width) - 8);
+        let mut words = registers.map(|register| {
+            let (low, high) = range(self.fixed(register));
+            let word = if any { self.number(low, high) } else { self.within(low, high) >> places };
+            if register == Register::ViewY && self.below(8) > 0 {
+                -word.saturating_abs().min(high)
+            } else {
+                word
+            }
+        });
+        if self.below(4) == 0 {
+            words[self.below(3) as usize] = 0;
+        }
+        if words == [0; 3] {
+            words[0] = 1;
+        }
+        let word = |at: usize| {
+            let format = self.world.view(registers[at]);
+            W::View::load_raw(words[at], format).unwrap_or(W::View::zero(format))
+        };
+        (word(0), word(1), word(2))
+    }
+
     /// Inputs of the stepper: rays of any direction, from places on and around the map that a
     /// divider of this range can give.
     pub fn stepper(
@@ -189,19 +217,7 @@ impl<W: Complete> Hostile<W> {
             (Register::GroundZ, units.stepper.eye_z, heights.rows()),
         ];
         for at in 0..line.len() {
-            line.view_x[at] = self.view(Register::ViewX, false);
-            line.view_y[at] = self.view(Register::ViewY, false);
-            line.view_z[at] = self.view(Register::ViewZ, false);
-            // Rays run along an axis; none has no direction.
-            match self.below(8) {
-                0 => line.view_x[at] = W::View::zero(self.world.view(Register::ViewX)),
-                1 => line.view_z[at] = W::View::zero(self.world.view(Register::ViewZ)),
-                2 => line.view_y[at] = W::View::zero(self.world.view(Register::ViewY)),
-                _ => {}
-            }
-            if [line.view_x[at], line.view_y[at], line.view_z[at]].iter().all(|v| v.sign() == 0) {
-                line.view_x[at] = self.view(Register::ViewX, true);
-            }
+            (line.view_x[at], line.view_y[at], line.view_z[at]) = self.ray();
             line.entry[at] = match self.below(16) {
                 0 if !units.stepper.from_eye => Entry::Sky,
                 1 if !units.stepper.from_eye => Entry::Far,
@@ -210,7 +226,12 @@ impl<W: Complete> Hostile<W> {
             let [x, z] = axes.map(|(register, eye, nodes)| {
                 let reach = 1_i64 << (range + self.fixed(register).point).min(62);
                 let eye = eye.raw().unwrap_or_default();
-                let away = self.coordinate(nodes, register).saturating_sub(eye);
+                let place = match self.below(4) {
+                    // Beside the map, from where rays come to its sides.
+                    0 => self.within(-16, 16 + i64::from(nodes)) << self.fixed(register).point,
+                    _ => self.coordinate(nodes, register),
+                };
+                let away = place.saturating_sub(eye);
                 let away = if (-reach..reach).contains(&away) {
                     away
                 } else {
@@ -268,8 +289,13 @@ impl<W: Complete> Hostile<W> {
     }
 
     /// Inputs of the shader of planes: any place that the divider can give, any denominator that
-    /// goes with it.
-    pub fn checker(&mut self, divider: Option<&Divider<W>>, pixels: u32) -> Line<W> {
+    /// goes with it, often one where squares fade.
+    pub fn checker(
+        &mut self,
+        unit: &PlaneShader<W>,
+        divider: Option<&Divider<W>>,
+        pixels: u32,
+    ) -> Line<W> {
         let mut line = self.line(pixels);
         let range = divider.map_or(0, |divider| divider.ratio_x.range);
         let eyes = divider.and_then(|divider| Some([divider.eye_x.raw()?, divider.eye_z.raw()?]));
@@ -281,6 +307,14 @@ impl<W: Complete> Hostile<W> {
                 _ => Entry::Met,
             };
             line.denominator[at] = self.view(Register::Denominator, true);
+            if let (Some(full), true) = (unit.full_from.and_then(Readout::raw), self.below(2) == 0)
+            {
+                let fading = self.within(full / 4, full).max(1);
+                let format = self.world.view(Register::Denominator);
+                if let Some(word) = W::View::load_raw(fading, format) {
+                    line.denominator[at] = word;
+                }
+            }
             if line.entry[at] == Entry::Sky {
                 line.denominator[at] = -line.denominator[at];
             }

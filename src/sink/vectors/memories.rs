@@ -1,7 +1,7 @@
 //! The machine's memories as files, one word per address.
 
 use super::text::{Header, Heading, Notation, Sheet, Way, Written};
-use super::units::{FLAG, notation};
+use super::wires::{FLAG, notation};
 use crate::setup::TerrainUnits;
 use crate::sink::SinkError;
 use crate::sink::folder::NewFolder;

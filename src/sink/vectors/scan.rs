@@ -3,7 +3,8 @@
 
 use super::hostile::{Hostile, RASTER};
 use super::text::{Coefficient, Heading, Sheet, Way, Written};
-use super::units::{COUNT, Unit, projector};
+use super::units::{Unit, projector};
+use super::wires::COUNT;
 use super::{Bench, Files};
 use crate::setup::Setup;
 use crate::sink::SinkError;

@@ -1,9 +1,12 @@
 //! What the files of the two shaders hold.
 
-use super::text::Coefficient;
-use super::units::{
-    COLOR, COUNT, EXPONENT, Unit, checker_wires, notation, number, packed, shader_wires, word,
+use super::text::{Coefficient, Way};
+use super::units::Unit;
+use super::wires::{
+    COLOR, COUNT, EXPONENT, Wire, color, entry, hit, is_met, is_on_surface, notation, number,
+    packed, place, wire, word,
 };
+use crate::unit::Line;
 use crate::unit::shader::{Flat, PlaneShader, TerrainShader};
 use crate::word::{Complete, Readout, Register};
 
@@ -89,4 +92,31 @@ pub fn checker<'a, W: Complete>(world: &W, unit: &PlaneShader<W>) -> Unit<'a, W>
         coefficients,
         wires: checker_wires(world),
     }
+}
+
+/// The wires of the shader of height maps.
+fn shader_wires<'a, W: Complete>(world: &W) -> Vec<Wire<'a, W>> {
+    let mut wires = place();
+    wires.extend([
+        hit(Way::In),
+        wire!(world, In Surface surface "height; valid on surface and side" if is_on_surface),
+        wire!(world, In SlopeX slope_x "negated slope along x; valid as the height" if is_on_surface),
+        wire!(world, In SlopeZ slope_z "negated slope along z; valid as the height" if is_on_surface),
+        color(),
+    ]);
+    wires
+}
+
+/// The wires of the shader of planes.
+fn checker_wires<'a, W: Complete>(world: &W) -> Vec<Wire<'a, W>> {
+    let mut wires = place();
+    wires.extend([
+        entry(Way::In),
+        wire!(world, In GroundX ground_x "place, x in squares; valid if met" if is_met),
+        wire!(world, In GroundZ ground_z "place, z in squares; valid if met" if is_met),
+        wire!(world, In Denominator denominator "denominator of the projection"),
+        hit(Way::Out),
+        color(),
+    ]);
+    wires
 }

@@ -2,7 +2,7 @@
 
 use super::Files;
 use super::text::{Header, Heading, Notation, Sheet, Way, Written};
-use super::units::PLACE;
+use super::wires::PLACE;
 use crate::clock::{Chain, Clock};
 use crate::sink::SinkError;
 use crate::unit::Line;

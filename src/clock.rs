@@ -94,7 +94,8 @@ impl Chain {
             + work.halvings * (self.reads + answer)
     }
 
-    fn work(&self, stage: usize, work: Work) -> u32 {
+    /// Cycles of a unit's work on a pixel.
+    pub fn work(&self, stage: usize, work: Work) -> u32 {
         if Some(stage) == self.stepper {
             self.stepper_work(work)
         } else if Some(stage) == self.interpolator {

@@ -38,9 +38,8 @@ impl Selection {
             }
             Choice::Strips(count) if count < lines => {
                 let chosen = Sample::whole_lines(plan, count, seed).lines;
-                let said = format!(
-                    "{count} of {lines} lines, one at random out of each of {count} strips, seed {seed}"
-                );
+                let strips = if count == 1 { "" } else { "one out of each of as many strips, " };
+                let said = format!("{count} of {lines} lines at random, {strips}seed {seed}");
                 Self { lines: chosen.into_iter().map(whole).collect(), said }
             }
             Choice::Strips(_) => {

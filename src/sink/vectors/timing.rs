@@ -6,6 +6,7 @@ use super::wires::PLACE;
 use crate::clock::{Chain, Clock};
 use crate::sink::SinkError;
 use crate::unit::Line;
+use crate::unit::line::Work;
 use crate::word::World;
 
 /// Cycles of a frame.
@@ -36,11 +37,13 @@ impl<'a> Timing<'a> {
             "equation 28".into(),
             format!("memory_latency {memory_latency}"),
         ];
-        for stage in &chain.stages {
-            lines.push(format!(
-                "stage {} latency {} depth {}",
-                stage.name, stage.latency, stage.depth
-            ));
+        let nothing = Work::default();
+        for (at, stage) in chain.stages.iter().enumerate() {
+            let fixed = chain.work(at, nothing);
+            let varies = chain.work(at, Work { trials: 1, ..nothing }) != fixed;
+            let work = if varies { "varies".into() } else { fixed.to_string() };
+            let (name, latency, depth) = (stage.name, stage.latency, stage.depth);
+            lines.push(format!("stage {name} work {work} latency {latency} depth {depth}"));
             let meaning = "cycle, from 0, in which it takes the item";
             columns.push(heading(format!("take_{}", stage.name), CYCLE, meaning));
         }

@@ -32,7 +32,7 @@ pub struct Vectors {
     lines: String,
 
     /// Single pixels instead, one at random out of each of N stretches of the scan.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     random: Option<u32>,
 
     /// Hostile rows of each unit: words at the ends of ranges, tiny and negative denominators,

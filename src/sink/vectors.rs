@@ -4,6 +4,7 @@
 //! Scene rows come from the wires of the line-by-line processor; hostile rows from the same units
 //! with random words on their wires. Nothing expected is computed here.
 
+mod bench;
 mod hostile;
 mod memories;
 mod scan;
@@ -25,18 +26,20 @@ use crate::engine::{FixedWorld, InFixedWorld};
 use crate::fast::enter::Enterable;
 use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::setup::{Back, Memory, Setup, SetupError, TerrainUnits, table};
+use crate::setup::{Back, Memory, Setup, SetupError, table};
 use crate::unit::Line;
-use crate::unit::divider::{Divider, Method};
-use crate::unit::shader::PlaneShader;
+use crate::unit::divider::Method;
 use crate::word::{Complete, Overflow, Register, Rounding};
+use bench::{Behind, Bench};
 use hostile::Hostile;
 use scan::Scan;
 use selection::Selection;
-use text::{Header, Sheet, Written};
+use text::Written;
 use timing::Timing;
-use units::Unit;
-use wires::{Wire, notation};
+use wires::notation;
+
+/// Hostile rows that are on the wires at a time.
+const CHUNK: u32 = 4096;
 
 /// Why vectors are not written.
 #[derive(Debug, thiserror::Error)]
@@ -155,126 +158,6 @@ struct Files<'a> {
     scene: &'a [String],
 }
 
-/// The open file of a unit.
-struct Bench<'a, W: Complete> {
-    unit: Unit<'a, W>,
-    sheet: Sheet<'a>,
-}
-
-impl<'a, W: Complete> Bench<'a, W> {
-    fn header(files: &Files<'_>, world: &W, unit: &Unit<'_, W>) -> Header {
-        let mut lines = vec![format!("page docs/units/{}.md", unit.page)];
-        lines.extend(files.vectors.formats(world, unit.registers));
-        Header {
-            stem: unit.stem.into(),
-            holds: unit.holds,
-            lines,
-            coefficients: unit.coefficients.clone(),
-            columns: unit.wires.iter().map(|wire| wire.heading.clone()).collect(),
-            rows: files.vectors.selection.pixels(),
-            hostile: files.vectors.hostile.into(),
-        }
-    }
-
-    fn begin(files: &Files<'a>, world: &W, unit: Unit<'a, W>) -> Result<Self, SinkError> {
-        let header = Self::header(files, world, &unit);
-        Ok(Self { sheet: Sheet::begin(files.folder, files.scene, &header)?, unit })
-    }
-
-    /// Runs the unit on a line and writes a row for every pixel.
-    fn run(
-        &mut self,
-        line: &mut Line<W>,
-        hostile: bool,
-        unit: impl FnOnce(&mut Line<W>),
-    ) -> Result<(), SinkError> {
-        let before = line.clone();
-        unit(line);
-        for at in 0..line.len() {
-            let bits = |wire: &Wire<'_, W>| wire.bits(&before, line, at, hostile);
-            self.sheet.row(self.unit.wires.iter().map(bits))?;
-        }
-        Ok(())
-    }
-}
-
-/// The open files of the units behind the divider.
-enum Behind<'a, W: Complete> {
-    Terrain {
-        units: &'a TerrainUnits<W>,
-        stepper: Bench<'a, W>,
-        interpolator: Bench<'a, W>,
-        shader: Bench<'a, W>,
-    },
-    Plane {
-        unit: &'a PlaneShader<W>,
-        checker: Bench<'a, W>,
-    },
-}
-
-impl<'a, W: Complete> Behind<'a, W> {
-    fn begin(files: &Files<'a>, setup: &'a Setup<W>, chain: &'a Chain) -> Result<Self, SinkError> {
-        let world = &setup.world;
-        let begin = |unit| Bench::begin(files, world, unit);
-        Ok(match &setup.back {
-            Back::Terrain(units) => Self::Terrain {
-                units,
-                stepper: begin(units::stepper(world, units, chain))?,
-                interpolator: begin(units::interpolator(world, &units.interpolator))?,
-                shader: begin(shading::shader(world, &units.shader))?,
-            },
-            Back::Plane(unit) => {
-                Self::Plane { unit, checker: begin(shading::checker(world, unit))? }
-            }
-        })
-    }
-
-    /// One line of the scene through all of them.
-    fn run(&mut self, line: &mut Line<W>) -> Result<(), SinkError> {
-        match self {
-            Self::Terrain { units, stepper, interpolator, shader } => {
-                stepper.run(line, false, |line| units.stepper.run(line, &units.interpolator))?;
-                interpolator.run(line, false, |line| units.interpolator.run(line))?;
-                shader.run(line, false, |line| units.shader.run(line))
-            }
-            Self::Plane { unit, checker } => checker.run(line, false, |line| unit.run(line)),
-        }
-    }
-
-    /// Hostile rows of each of them.
-    fn run_hostile(
-        &mut self,
-        hostile: &mut Hostile<W>,
-        divider: Option<&Divider<W>>,
-        count: u32,
-    ) -> Result<(), SinkError> {
-        match self {
-            Self::Terrain { units, stepper, interpolator, shader } => {
-                let mut line = hostile.stepper(units, divider, count);
-                stepper
-                    .run(&mut line, true, |line| units.stepper.run(line, &units.interpolator))?;
-                let mut line = hostile.interpolator(units, count);
-                interpolator.run(&mut line, true, |line| units.interpolator.run(line))?;
-                let mut line = hostile.shader(units, count);
-                shader.run(&mut line, true, |line| units.shader.run(line))
-            }
-            Self::Plane { unit, checker } => {
-                let mut line = hostile.checker(unit, divider, count);
-                checker.run(&mut line, true, |line| unit.run(line))
-            }
-        }
-    }
-
-    fn finish(self) -> Result<Vec<Written>, SinkError> {
-        match self {
-            Self::Terrain { stepper, interpolator, shader, .. } => {
-                [stepper, interpolator, shader].into_iter().map(|b| b.sheet.finish()).collect()
-            }
-            Self::Plane { checker, .. } => Ok(vec![checker.sheet.finish()?]),
-        }
-    }
-}
-
 impl InFixedWorld for Vectors<'_> {
     type Output = Result<Report, VectorsError>;
 
@@ -315,7 +198,7 @@ impl<'a> Files<'a> {
                 setup.projector.next_line(&mut start);
                 next += 1;
             }
-            let mut line = Line::new(world, columns.iter().copied());
+            let mut line = Line::new(world, columns.list());
             line.number = *number;
             setup.projector.run(&start, &mut line);
             scan.rows(&line, 0, line.len())?;
@@ -329,15 +212,18 @@ impl<'a> Files<'a> {
         let count = self.vectors.hostile;
         let mut hostile = Hostile::new(*world, self.vectors.seed);
         scan.hostile_rows(&setup.projector, &mut hostile, count)?;
-        if let (Some(bench), Some(unit)) = (&mut ratio, divider) {
-            let mut line = hostile.divider(unit, count);
-            bench.run(&mut line, true, |line| unit.run(line, Method::Array))?;
+        for from in (0..count).step_by(CHUNK as usize) {
+            let pixels = CHUNK.min(count - from);
+            if let (Some(bench), Some(unit)) = (&mut ratio, divider) {
+                let mut line = hostile.divider(unit, pixels);
+                bench.run(&mut line, true, |line| unit.run(line, Method::Array))?;
+            }
+            behind.run_hostile(&mut hostile, divider, pixels)?;
         }
-        behind.run_hostile(&mut hostile, divider, count)?;
 
         let mut written = scan.finish()?.to_vec();
         if let Some(bench) = ratio {
-            written.push(bench.sheet.finish()?);
+            written.push(bench.finish()?);
         }
         written.extend(behind.finish()?);
         written.push(timing.finish()?);

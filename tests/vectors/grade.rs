@@ -16,8 +16,8 @@ use terraline::unit::divider::Method;
 use terraline::unit::line::Entry;
 use terraline::word::{Complete, Load, Readout, Register};
 
-use super::exact;
 use super::reader::File;
+use super::{exact, memories};
 
 /// What is graded.
 pub struct Grade<'a> {
@@ -60,7 +60,7 @@ impl InFixedWorld for Grade<'_> {
         let chain = Chain::new(&setup, scene.machine.memory_latency, plan.fitted.idle);
         self.units(&setup, &chain)?;
         if let Back::Terrain(units) = &setup.back {
-            self.memories(units)?;
+            memories::check(files, units)?;
         }
         Ok(())
     }
@@ -106,7 +106,9 @@ impl Grade<'_> {
         let lines = &self.selection.lines;
         let pixels: Vec<(i64, i64)> = lines
             .iter()
-            .flat_map(|(line, columns)| columns.iter().map(|&c| (i64::from(*line), c.into())))
+            .flat_map(|(line, columns)| {
+                columns.list().into_iter().map(|c| (i64::from(*line), c.into()))
+            })
             .collect();
         for file in self.of_pixels() {
             if file.of_scene != pixels.len() {
@@ -244,76 +246,6 @@ impl Grade<'_> {
         let mut line = wires(world, file)?;
         unit.run(&mut line);
         compare(file, &line, chain)
-    }
-
-    /// Memories, addressed as the page says.
-    fn memories<W: Complete>(&self, units: &TerrainUnits<W>) -> Result<(), String> {
-        let heights = &units.interpolator.heights;
-        let (columns, rows) = (heights.columns(), heights.rows());
-        let word = |file: &str, at: i64, column: usize| -> Result<i64, String> {
-            let row =
-                self.files[file].rows.get(at as usize).ok_or(format!("{file}: no row {at}"))?;
-            row[column].ok_or(format!("{file} row {at}: x"))
-        };
-        let same = |file: &str, at: i64, column: usize, expected: Option<i64>| {
-            let found = word(file, at, column)?;
-            if Some(found) == expected {
-                return Ok(());
-            }
-            Err(format!("{file} row {at}: {found:x}, not {expected:x?}"))
-        };
-        for j in 0..rows {
-            for i in 0..columns {
-                let at = i64::from(j) * i64::from(columns) + i64::from(i);
-                same("height_memory", at, 0, heights.at(i as usize, j as usize).raw())?;
-                if heights.has_voids() {
-                    same("void_bits", at, 0, Some(heights.any_void(i, j, 1).into()))?;
-                }
-            }
-        }
-        if let Some(pyramid) = &units.stepper.pyramid {
-            let file = &self.files["pyramid"];
-            let address = file.lines("address").next().ok_or("no address")?;
-            let first: i64 = if address.ends_with("first -1") { -1 } else { 0 };
-            let mut bounds = 0;
-            for line in file.lines("level") {
-                let words: Vec<&str> = line.split(' ').collect();
-                let [level, "offset", offset, "columns", columns, "rows", rows] = words[..] else {
-                    return Err(format!("level {line}"));
-                };
-                let number = |text: &str| text.parse::<i64>().map_err(|error| error.to_string());
-                let (level, offset) = (number(level)?, number(offset)?);
-                let (columns, rows) = (number(columns)?, number(rows)?);
-                for (b, c) in (0..rows).flat_map(|c| (0..columns).map(move |b| (b, c))) {
-                    // The first cell of the block.
-                    let cell = |block: i64| ((block + first) << level) as i32;
-                    let bound = pyramid.bound(level as u32, cell(b), cell(c));
-                    same("pyramid", offset + c * columns + b, 0, bound.and_then(Readout::raw))?;
-                    bounds += 1;
-                }
-            }
-            if bounds != file.rows.len() {
-                return Err(format!("{bounds} bounds in levels, {} rows", file.rows.len()));
-            }
-        }
-        if let Some(rom) = &units.interpolator.rom {
-            for entry in 0..=1_usize << rom.log2() {
-                same("kernel_weight", entry as i64, 0, rom.weight(entry).raw())?;
-                same("kernel_slope", entry as i64, 0, rom.slope(entry).raw())?;
-            }
-        }
-        if let Some(light) = &units.shader.light {
-            for (entry, root) in light.rsqrt.iter().enumerate() {
-                same("rsqrt", entry as i64, 0, root.raw())?;
-            }
-        }
-        for (at, segment) in units.shader.ramp.segments.iter().enumerate() {
-            for (channel, (start, rise)) in segment.iter().enumerate() {
-                same("ramp", at as i64, 2 * channel, start.raw())?;
-                same("ramp", at as i64, 2 * channel + 1, rise.raw())?;
-            }
-        }
-        Ok(())
     }
 }
 

@@ -59,7 +59,7 @@ fn a_row_with_another_digit_is_not_what_the_units_answer() {
             let file = &files[&stem];
             let (rows, of_scene) = (file.rows.len(), file.of_scene);
             // A memory that the scene's rows do not need in full: a part of the long ones.
-            for n in (0..rows).step_by(rows.div_ceil(60)) {
+            for n in (0..rows).step_by(rows.div_ceil(30)) {
                 for at in 0..files[&stem].columns.len() {
                     let column = files[&stem].columns[at].clone();
                     // Inputs of hostile rows are anybody's choice, and need no certain answer.

@@ -102,7 +102,7 @@ pub fn read(name: &str, text: &str) -> Result<File, String> {
         return Err("not ASCII, or the last line is cut".into());
     }
     let body = text.rfind("// crc32 ").ok_or("no checksum")?;
-    if text[body..] != format!("// crc32 {:08x}\n", crc32(text[..body].as_bytes())) {
+    if text[body..] != format!("// crc32 {:08x}\n", crc32(&text.as_bytes()[..body])) {
         return Err("the checksum differs".into());
     }
     let mut lines = text[..body].lines().peekable();

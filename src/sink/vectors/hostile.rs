@@ -265,12 +265,23 @@ impl<W: Complete> Hostile<W> {
         line
     }
 
+    /// The highest node as a height of the interpolator.
+    fn highest(&self, units: &TerrainUnits<W>) -> i64 {
+        let (from, to) = (self.fixed(Register::RayY), self.fixed(Register::Surface));
+        let top = i128::from(units.stepper.top.raw().unwrap_or_default());
+        let top = if to.point > from.point {
+            top << (to.point - from.point)
+        } else {
+            top >> (from.point - to.point)
+        };
+        top.clamp(0, range(to).1.into()) as i64
+    }
+
     /// Inputs of the shader of height maps: heights from the lowest to the highest node, any
     /// slopes.
     pub fn shader(&mut self, units: &TerrainUnits<W>, pixels: u32) -> Line<W> {
         let mut line = self.line(pixels);
-        let nodes = units.interpolator.heights.nodes();
-        let highest = nodes.iter().filter_map(|node| node.raw()).max().unwrap_or_default();
+        let highest = self.highest(units);
         for at in 0..line.len() {
             line.hit[at] = match self.below(16) {
                 0 => Hit::Sky,
@@ -278,7 +289,7 @@ impl<W: Complete> Hostile<W> {
                 2 => Hit::Far,
                 _ => Hit::Surface,
             };
-            let height = self.number(0, highest.max(0));
+            let height = self.number(0, highest);
             line.surface[at] = self.height(Register::Surface, height);
             let (low, high) = range(self.fixed(Register::SlopeX));
             let (x, z) = (self.number(low, high), self.number(low, high));

@@ -1,11 +1,12 @@
 //! The projector's files. It has no input but its coefficients, so hostile rows have coefficients
 //! of their own, each set scanned over a small raster; a second file lists the sets.
 
+use super::Files;
+use super::bench::Bench;
 use super::hostile::{Hostile, RASTER};
 use super::text::{Coefficient, Heading, Sheet, Way, Written};
 use super::units::{Unit, projector};
 use super::wires::COUNT;
-use super::{Bench, Files};
 use crate::setup::Setup;
 use crate::sink::SinkError;
 use crate::unit::Line;

@@ -15,11 +15,37 @@ pub enum Choice {
     Pixels(u32),
 }
 
+/// Columns of a line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Columns {
+    /// All of so many.
+    All(u32),
+    /// These, ascending.
+    Some(Vec<u32>),
+}
+
+impl Columns {
+    /// Their numbers.
+    pub fn list(&self) -> Vec<u32> {
+        match self {
+            Self::All(count) => (0..*count).collect(),
+            Self::Some(columns) => columns.clone(),
+        }
+    }
+
+    fn count(&self) -> u64 {
+        match self {
+            Self::All(count) => u64::from(*count),
+            Self::Some(columns) => columns.len() as u64,
+        }
+    }
+}
+
 /// Pixels of a scene, in the order of the scan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Selection {
-    /// Line, and columns on it; both ascending.
-    pub lines: Vec<(u32, Vec<u32>)>,
+    /// Lines, ascending, and columns on them.
+    pub lines: Vec<(u32, Columns)>,
     /// In words.
     pub said: String,
 }
@@ -28,7 +54,7 @@ impl Selection {
     /// The pixels of a choice. What a choice asks for beyond the raster is left out.
     pub fn new(plan: &Plan, choice: Choice, seed: u64) -> Self {
         let (columns, lines) = (plan.geometry.columns, plan.geometry.lines);
-        let whole = |line| (line, (0..columns).collect());
+        let whole = |line| (line, Columns::All(columns));
         match choice {
             Choice::Lines(from, to) => {
                 let to = to.min(lines);
@@ -48,15 +74,15 @@ impl Selection {
             Choice::Pixels(count) => {
                 let all = u64::from(columns) * u64::from(lines);
                 let count = u64::from(count).min(all);
-                let mut chosen: Vec<(u32, Vec<u32>)> = Vec::new();
+                let mut chosen: Vec<(u32, Columns)> = Vec::new();
                 for n in 0..count {
                     let (from, to) = (n * all / count, (n + 1) * all / count);
                     let pixel = from + mix(seed, n) % (to - from);
                     let line = (pixel / u64::from(columns)) as u32;
                     let column = (pixel % u64::from(columns)) as u32;
                     match chosen.last_mut() {
-                        Some((last, on_it)) if *last == line => on_it.push(column),
-                        _ => chosen.push((line, vec![column])),
+                        Some((last, Columns::Some(on_it))) if *last == line => on_it.push(column),
+                        _ => chosen.push((line, Columns::Some(vec![column]))),
                     }
                 }
                 let said = format!("{count} of {all} pixels at random, seed {seed}");
@@ -67,6 +93,6 @@ impl Selection {
 
     /// Number of pixels.
     pub fn pixels(&self) -> u64 {
-        self.lines.iter().map(|(_, columns)| columns.len() as u64).sum()
+        self.lines.iter().map(|(_, columns)| columns.count()).sum()
     }
 }

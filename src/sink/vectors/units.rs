@@ -93,7 +93,7 @@ pub fn divider<'a, W: Complete>(world: &W, unit: &Divider<W>) -> Unit<'a, W> {
         let point = world.fixed(register).map_or(0, |fixed| fixed.point);
         i64::from(unit.ratio_x.range + point + 1)
     };
-    const SHIFT: &str = "places that the numerator is shifted left before the ratio";
+    const SHIFT: &str = "places to shift the numerator left (right if negative) before the ratio";
     const BITS: &str = "quotient bits: the quotient is in range from -2^(bits-1) to 2^(bits-1)-1";
     let mut wires = place();
     wires.extend([

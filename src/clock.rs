@@ -113,7 +113,8 @@ impl Chain {
             + work.hits * (RAY_END + rim)
     }
 
-    fn work(&self, stage: usize, work: Work) -> u32 {
+    /// Cycles of a unit's work on a pixel.
+    pub fn work(&self, stage: usize, work: Work) -> u32 {
         if Some(stage) == self.stepper {
             self.stepper_work(work)
         } else if Some(stage) == self.interpolator {
@@ -225,6 +226,13 @@ impl Clock {
         self.items += 1;
         self.last = ready + 1;
         self.last
+    }
+
+    /// Unit by unit, the cycle (from 0) in which it took the latest pixel.
+    pub fn entered(&self) -> impl Iterator<Item = u64> + '_ {
+        self.taken
+            .iter()
+            .map(|ring| ring.times[(ring.at + ring.times.len() - 1) % ring.times.len()])
     }
 
     /// All pixels of a line; hands each completion cycle to `done`.

@@ -8,6 +8,8 @@ mod height_files;
 mod json_page;
 #[path = "command_line/scenes.rs"]
 mod scenes;
+#[path = "command_line/vectors.rs"]
+mod vectors;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -102,7 +104,9 @@ fn without_a_command_it_says_what_to_try() {
 #[test]
 fn every_command_explains_itself() {
     let folder = Folder::new();
-    for command in ["view", "render", "explain", "plan", "cycles", "compare", "scenes", "info"] {
+    for command in
+        ["view", "render", "explain", "plan", "cycles", "vectors", "compare", "scenes", "info"]
+    {
         let text = folder.prints(&[command, "--help"]);
         assert!(text.contains(&format!("Example: terraline {command}")), "{text}");
     }

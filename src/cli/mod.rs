@@ -12,6 +12,7 @@ mod report;
 mod scene_args;
 mod scene_out;
 mod scenes;
+mod vectors;
 mod view;
 
 use std::process::ExitCode;
@@ -33,6 +34,7 @@ enum Command {
     Explain(explain::Explain),
     Plan(plan::PlanCommand),
     Cycles(cycles::Cycles),
+    Vectors(vectors::Vectors),
     Compare(compare::Compare),
     Scenes(scenes::Scenes),
     Info(info::Info),
@@ -75,6 +77,7 @@ pub fn main() -> ExitCode {
         Some(Command::Explain(command)) => command.run(),
         Some(Command::Plan(command)) => command.run(),
         Some(Command::Cycles(command)) => command.run(),
+        Some(Command::Vectors(command)) => command.run(),
         Some(Command::Compare(command)) => command.run(),
         Some(Command::Scenes(command)) => command.run(),
         Some(Command::Info(command)) => command.run(),

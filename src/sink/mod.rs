@@ -3,10 +3,12 @@
 //! A file is written whole or not at all: everything goes to a temporary file in the folder of
 //! the target, which takes the target's name when the last byte is written.
 
+pub mod folder;
 pub mod npy;
 pub mod npz;
 pub mod picture;
 pub mod png;
+pub mod vectors;
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -43,6 +45,12 @@ pub enum SinkError {
     /// The target exists and is read-only.
     #[error("cannot write {path}: the file is read-only; make it writable or choose another path")]
     ReadOnly {
+        /// The target.
+        path: PathBuf,
+    },
+    /// A folder is to be made where something is.
+    #[error("cannot write {path}: it is there already; remove it or choose another name")]
+    Occupied {
         /// The target.
         path: PathBuf,
     },

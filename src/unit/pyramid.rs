@@ -145,6 +145,13 @@ impl<T: Copy + PartialOrd + Send + Sync> Pyramid<T> {
         (stored, self.levels.offset[at].wrapping_add(j.wrapping_mul(columns)).wrapping_add(i))
     }
 
+    /// Where a level's bounds are: address of its first one, columns and rows of blocks. Column 0
+    /// is block -1 where the map ends at its edge, block 0 elsewhere.
+    pub fn level(&self, level: u32) -> (i32, i32, i32) {
+        let at = level as usize % LEVELS;
+        (self.levels.offset[at], self.levels.columns[at], self.levels.rows[at])
+    }
+
     /// The bound at an address.
     #[inline(always)]
     pub fn at(&self, address: i32) -> T {

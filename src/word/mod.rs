@@ -206,6 +206,9 @@ pub trait Load: Word {
     /// The word nearest to a value (ties to even), or `None` where it does not fit or is not
     /// finite.
     fn load(value: f64, format: Self::Format) -> Option<Self>;
+
+    /// The word of these bits, or `None` where the register has not so many, or no bits at all.
+    fn load_raw(bits: i64, format: Self::Format) -> Option<Self>;
 }
 
 /// Sinks and studies only: what a register says.

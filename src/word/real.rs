@@ -123,6 +123,10 @@ impl Load for RealWord {
     fn load(value: f64, (): ()) -> Option<Self> {
         value.is_finite().then_some(Self(value))
     }
+
+    fn load_raw(_: i64, (): ()) -> Option<Self> {
+        None
+    }
 }
 
 impl Readout for RealWord {

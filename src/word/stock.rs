@@ -171,6 +171,10 @@ macro_rules! stock_words {
                 fn load(value: f64, (): ()) -> Option<Self> {
                     <$fixed<$fraction>>::checked_from_num(value).map(Self)
                 }
+                fn load_raw(bits: i64, (): ()) -> Option<Self> {
+                    let kept = bits as $int;
+                    (i64::from(kept) == bits).then(|| Self::of(kept))
+                }
             }
 
             impl Readout for $word {

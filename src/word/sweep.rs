@@ -247,6 +247,12 @@ impl Load for SweepWord {
         let limit = libm::exp2(f64::from(format.width) - 1.0);
         (-limit <= bits && bits < limit).then(|| format.word(bits as i128, false))
     }
+
+    fn load_raw(bits: i64, format: SweepFormat) -> Option<Self> {
+        let limit = 1_i128 << (format.width - 1);
+        let bits = i128::from(bits);
+        (-limit..limit).contains(&bits).then(|| format.word(bits, false))
+    }
 }
 
 impl Readout for SweepWord {

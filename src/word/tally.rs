@@ -200,6 +200,9 @@ impl<T: Load> Load for TallyWord<T> {
     fn load(value: f64, format: T::Format) -> Option<Self> {
         T::load(value, format).map(Self)
     }
+    fn load_raw(bits: i64, format: T::Format) -> Option<Self> {
+        T::load_raw(bits, format).map(Self)
+    }
 }
 
 impl<T: Readout> Readout for TallyWord<T> {

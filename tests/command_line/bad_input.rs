@@ -4,7 +4,7 @@ use super::{Folder, unchanged, write_map};
 
 /// Runs the program on bad input and returns its message.
 #[track_caller]
-fn refused(folder: &Folder, arguments: &[&str]) -> String {
+pub fn refused(folder: &Folder, arguments: &[&str]) -> String {
     let before = folder.names();
     let output = folder.run(arguments);
     let stderr = String::from_utf8(output.stderr).expect("text");

@@ -56,6 +56,7 @@ fn every_field_is_on_its_page() {
         &["explain", "flight", "--pixel", "500,900"],
         &["plan", "flight"],
         &["cycles", "flight", "--size", "32x32"],
+        &["vectors", "flight", "--size", "32x32", "-o", "vectors"],
         &["compare", "a1.png", "a2.png"],
         &["compare", "a1.npz", "a2.npz"],
         &["scenes"],

@@ -32,6 +32,52 @@ const fn model(
 const MODELS: &[Model] = &[
     model("queue_1", "queue", &["WIDTH=16", "DEPTH=1"]),
     model("queue_5", "queue", &["WIDTH=16", "DEPTH=5"]),
+    model("product_5_3", "product", &["A=5", "B=3"]),
+    model("product_5_4", "product", &["A=5", "B=4", "SIGNED=0"]),
+    model("product_32_21", "product", &["A=32", "B=21", "SIGNED=0"]),
+    model("product_32_23", "product", &["A=32", "B=23"]),
+    model("product_64_25", "product", &["A=64", "B=25", "SIGNED=0"]),
+    model("product_64_64", "product", &["A=64", "B=64"]),
+    model(
+        "interpolator_narrow_cell_height",
+        "interpolator",
+        &["WIDE=0", "STRETCH=0", "SLOPES=0", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_narrow_cell_slopes",
+        "interpolator",
+        &["WIDE=0", "STRETCH=0", "SLOPES=1", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_narrow_stretch_height",
+        "interpolator",
+        &["WIDE=0", "STRETCH=1", "SLOPES=0", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_narrow_stretch_slopes",
+        "interpolator",
+        &["WIDE=0", "STRETCH=1", "SLOPES=1", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_wide_cell_height",
+        "interpolator",
+        &["WIDE=1", "STRETCH=0", "SLOPES=0", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_wide_cell_slopes",
+        "interpolator",
+        &["WIDE=1", "STRETCH=0", "SLOPES=1", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_wide_stretch_height",
+        "interpolator",
+        &["WIDE=1", "STRETCH=1", "SLOPES=0", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_wide_stretch_slopes",
+        "interpolator",
+        &["WIDE=1", "STRETCH=1", "SLOPES=1", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
 ];
 
 fn main() {
@@ -78,7 +124,13 @@ fn build(include: &Path) {
     // The package comes first: the others use it.
     sources.sort_by_key(|path| (!path.ends_with("terraline_pkg.sv"), path.clone()));
     let mut cpp = cc::Build::new();
-    cpp.cpp(true).std("c++17").include(include).include("shim").warnings(false).opt_level(2);
+    cpp.cpp(true)
+        .std("c++17")
+        .include(include)
+        .include("shim")
+        .warnings(false)
+        .opt_level(2)
+        .debug(false);
     let mut table = String::from("#include \"model.hpp\"\n");
     let mut rows = String::new();
     for model in MODELS {

@@ -52,6 +52,54 @@ const MODELS: &[Model] = &[
     model("plane_wide", "terraline", &["WIDE=1", "TERRAIN=0"]),
     model("plane_narrow_serial", "terraline", &["WIDE=0", "TERRAIN=0", "SERIAL=1"]),
     model("plane_wide_serial", "terraline", &["WIDE=1", "TERRAIN=0", "SERIAL=1"]),
+    model("terrain_narrow", "terraline", &["WIDE=0", "OUTSTANDING=64", "TABLE_LOG2=16"]),
+    model("terrain_wide", "terraline", &["WIDE=1", "OUTSTANDING=64", "TABLE_LOG2=16"]),
+    model("product_5_3", "product", &["A=5", "B=3"]),
+    model("product_5_4", "product", &["A=5", "B=4", "SIGNED=0"]),
+    model("product_32_21", "product", &["A=32", "B=21", "SIGNED=0"]),
+    model("product_32_23", "product", &["A=32", "B=23"]),
+    model("product_64_25", "product", &["A=64", "B=25", "SIGNED=0"]),
+    model("product_64_64", "product", &["A=64", "B=64"]),
+    model(
+        "interpolator_narrow_cell_height",
+        "interpolator",
+        &["WIDE=0", "STRETCH=0", "SLOPES=0", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_narrow_cell_slopes",
+        "interpolator",
+        &["WIDE=0", "STRETCH=0", "SLOPES=1", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_narrow_stretch_height",
+        "interpolator",
+        &["WIDE=0", "STRETCH=1", "SLOPES=0", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_narrow_stretch_slopes",
+        "interpolator",
+        &["WIDE=0", "STRETCH=1", "SLOPES=1", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_wide_cell_height",
+        "interpolator",
+        &["WIDE=1", "STRETCH=0", "SLOPES=0", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_wide_cell_slopes",
+        "interpolator",
+        &["WIDE=1", "STRETCH=0", "SLOPES=1", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_wide_stretch_height",
+        "interpolator",
+        &["WIDE=1", "STRETCH=1", "SLOPES=0", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
+    model(
+        "interpolator_wide_stretch_slopes",
+        "interpolator",
+        &["WIDE=1", "STRETCH=1", "SLOPES=1", "TAG=7", "TABLE_LOG2=16", "OUTSTANDING=5"],
+    ),
 ];
 
 fn main() {
@@ -108,6 +156,14 @@ fn build(include: &Path) {
     };
     // What runs in every cycle, and what runs once.
     let (mut often, mut once) = (compiler(1), compiler(0));
+    let mut cpp = cc::Build::new();
+    cpp.cpp(true)
+        .std("c++17")
+        .include(include)
+        .include("shim")
+        .warnings(false)
+        .opt_level(2)
+        .debug(false);
     let mut table = String::from("#include \"model.hpp\"\n");
     let mut rows = String::new();
     for model in MODELS {

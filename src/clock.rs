@@ -159,8 +159,6 @@ pub struct Clock {
     /// Per unit, the first cycle in which it is done with the item before.
     free: Vec<u64>,
     occupancy: Vec<Occupancy>,
-    /// Per unit, the cycle in which it took its latest item.
-    entered: Vec<u64>,
     sink: Sink,
     items: u64,
     last: u64,
@@ -182,7 +180,6 @@ impl Clock {
             taken: depths.take(chain.stages.len()).map(ring).collect(),
             free: vec![0; chain.stages.len()],
             occupancy: vec![Occupancy::default(); chain.stages.len()],
-            entered: vec![0; chain.stages.len()],
             sink: Sink::Ready,
             items: 0,
             last: 0,
@@ -217,7 +214,6 @@ impl Clock {
             occupancy.busy += u64::from(cycles);
             occupancy.stalled += entered - here;
             self.free[unit] = entered + u64::from(cycles);
-            self.entered[unit] = entered;
             let ring = &mut self.taken[unit];
             ring.times[ring.at] = entered;
             ring.at = (ring.at + 1) % ring.times.len();
@@ -240,11 +236,6 @@ impl Clock {
         for (i, &work) in line.work.iter().enumerate() {
             done(i, self.take(work));
         }
-    }
-
-    /// Per unit, the cycle (from 0) in which it took its latest item.
-    pub fn entered(&self) -> &[u64] {
-        &self.entered
     }
 
     /// Cycles so far.

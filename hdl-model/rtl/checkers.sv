@@ -148,7 +148,7 @@ module checkers #(
       .clock(clock),
       .a(scaled_3),
       .b(contrast_gain[F+2:0]),
-      .p(raised)
+      .result(raised)
   );
 
   assign raised_half = raised + $signed({{(F + 6) {1'b0}}, HALF});
@@ -183,7 +183,7 @@ module checkers #(
         .clock(clock),
         .a($signed({1'b0, contrast_7})),
         .b($signed(swings[9*channel+:9])),
-        .p(swung)
+        .result(swung)
     );
 
     // The product counts half levels: its last bit rounds.

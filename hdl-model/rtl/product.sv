@@ -1,39 +1,28 @@
-// The product of two signed words by shift-and-add: one partial product per bit of `b`, the one of
-// the sign bit subtracted. One register cut, between sums of four and the sum of these.
+// A shift-and-add multiplier: a·b, exact, one cycle after its operands.
 //
-// Cycles: p is valid in the cycle after a and b; one product per cycle. Never drops a bit: p is the
-// exact product.
+// Partial products of the lower and of the upper half of b are summed and kept in registers; one
+// adder joins them in the cycle after. Never drops a partial product. Takes operands every cycle.
 module product #(
-    parameter int A = 20,  // bits of a
-    parameter int B = 20   // bits of b; the fewer, the smaller
+    parameter int A      = 32,  // bits of a
+    parameter int B      = 22,  // bits of b, at least 3
+    parameter int SIGNED = 1    // 1: b is signed, 0: b is not negative
 ) (
-    input  logic                  clock,
-    input  logic signed [  A-1:0] a,      // factor
-    input  logic signed [  B-1:0] b,      // factor that is taken bit by bit
-    output logic signed [A+B-1:0] p       // a·b of the cycle before
+    input  logic           clock,
+    input  logic [  A-1:0] a,      // multiplicand, signed
+    input  logic [  B-1:0] b,      // multiplier
+    output logic [A+B-1:0] result  // a·b of the cycle before, signed
 );
-  localparam int GROUPS = (B + 3) / 4;
+  localparam int LOW = B / 2;
+  localparam int HIGH = B - LOW;
+  logic [ A+LOW-1:0] low_sum, low;
+  logic [A+HIGH-1:0] high_sum, high;
 
-  logic signed [A+3:0] groups[GROUPS];  // four partial products each, of weight 16^group
+  partial_sum #(.A(A), .B(LOW), .SIGNED(0)) lower (.a(a), .b(b[LOW-1:0]), .sum(low_sum));
+  partial_sum #(.A(A), .B(HIGH), .SIGNED(SIGNED)) upper (.a(a), .b(b[B-1:LOW]), .sum(high_sum));
 
-  for (genvar g = 0; g < GROUPS; g++) begin : gen_group
-    localparam int BITS = B - 4 * g < 4 ? B - 4 * g : 4;
-    logic signed [A+3:0] partial;
-    logic signed [A+3:0] sum;
-    always_comb begin
-      sum = '0;
-      partial = '0;
-      for (int at = 0; at < BITS; at++) begin
-        partial = b[4*g+at] ? (A + 4)'(a) <<< at : '0;
-        if (4 * g + at == B - 1) sum = sum - partial;
-        else sum = sum + partial;
-      end
-    end
-    always_ff @(posedge clock) groups[g] <= sum;
+  always_ff @(posedge clock) begin
+    low  <= low_sum;
+    high <= high_sum;
   end
-
-  always_comb begin
-    p = '0;
-    for (int g = 0; g < GROUPS; g++) p = p + ((A + B)'(groups[g]) <<< (4 * g));
-  end
+  assign result = {high + {{HIGH{low[A+LOW-1]}}, low[A+LOW-1:LOW]}, low[LOW-1:0]};
 endmodule

@@ -200,7 +200,7 @@ module shader #(
       .clock(clock),
       .a(x_4),
       .b(x_4),
-      .p(square_x)
+      .result(square_x)
   );
 
   product #(
@@ -210,7 +210,7 @@ module shader #(
       .clock(clock),
       .a(z_4),
       .b(z_4),
-      .p(square_z)
+      .result(square_z)
   );
 
   product #(
@@ -220,7 +220,7 @@ module shader #(
       .clock(clock),
       .a(x_4),
       .b(toward_x[F+1:0]),
-      .p(dot_x)
+      .result(dot_x)
   );
 
   product #(
@@ -230,7 +230,7 @@ module shader #(
       .clock(clock),
       .a(z_4),
       .b(toward_z[F+1:0]),
-      .p(dot_z)
+      .result(dot_z)
   );
 
   always_comb begin
@@ -283,7 +283,7 @@ module shader #(
       .clock(clock),
       .a(dot_7),
       .b($signed({1'b0, rsqrt_7})),
-      .p(diffuse)
+      .result(diffuse)
   );
 
   assign diffuse_half = diffuse + $signed({{(F + 6) {1'b0}}, HALF});
@@ -342,7 +342,7 @@ module shader #(
       .clock(clock),
       .a(height_3),
       .b(ramp_gain[F+5:0]),
-      .p(place)
+      .result(place)
   );
 
   assign place_half = place + $signed({{(F + 8) {1'b0}}, HALF});
@@ -402,7 +402,7 @@ module shader #(
         .clock(clock),
         .a($signed({1'b0, fraction_7})),
         .b(rise_7),
-        .p(risen)
+        .result(risen)
     );
 
     product #(
@@ -412,7 +412,7 @@ module shader #(
         .clock(clock),
         .a(color_10),
         .b($signed({1'b0, shade_10})),
-        .p(shaded)
+        .result(shaded)
     );
 
     // Half of the product's last bit and half a level.

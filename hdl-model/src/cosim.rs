@@ -109,7 +109,7 @@ pub fn compare<W: Complete>(
             clock.take(line.work[column]);
             let place =
                 |unit: usize| format!("line {}, column {column}, {}", line.number, UNITS[unit]);
-            for (&unit, &expected) in fitted.iter().zip(clock.entered()) {
+            for (&unit, expected) in fitted.iter().zip(clock.entered()) {
                 let found = drawn.taken[unit].get(at).copied();
                 if found != Some(expected) {
                     outcome.differs(|| {

@@ -56,3 +56,13 @@ fn planes() {
         }
     }
 }
+
+#[test]
+fn terrain() {
+    for name in ["overview", "flight", "valley"] {
+        for latency in ["machine.memory_latency=1", "machine.memory_latency=2"] {
+            assert_equal(name, &["screen.size=[160, 120]", latency], Sink::Ready);
+        }
+        assert_equal(name, &["screen.size=[160, 120]", "machine.memory_latency=5"], BUSY);
+    }
+}

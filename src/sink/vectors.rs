@@ -164,7 +164,7 @@ impl InFixedWorld for Vectors<'_> {
     fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
         let memory = Memory::new(&world, self.scene, self.plan)?;
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
-        let chain = Chain::new(&setup, self.scene.machine.memory_latency, self.plan.fitted.idle);
+        let chain = Chain::new(&setup, &self.scene.machine, self.plan.fitted.idle);
         let folder = NewFolder::begin(self.folder)?;
         let scene = self.scene_lines();
         let files = Files { vectors: self, folder: &folder, scene: &scene };

@@ -57,7 +57,7 @@ impl InFixedWorld for Grade<'_> {
         if self.stock {
             exact::interpolator(files)?;
         }
-        let chain = Chain::new(&setup, scene.machine.memory_latency, plan.fitted.idle);
+        let chain = Chain::new(&setup, &scene.machine, plan.fitted.idle);
         self.units(&setup, &chain)?;
         if let Back::Terrain(units) = &setup.back {
             memories::check(files, units)?;

@@ -9,8 +9,8 @@ use crate::clock::Chain;
 use crate::setup::{Back, Setup, TerrainUnits};
 use crate::sink::SinkError;
 use crate::unit::Line;
+use crate::unit::checker::Checker;
 use crate::unit::divider::Divider;
-use crate::unit::shader::PlaneShader;
 use crate::word::Complete;
 
 /// The open file of a unit.
@@ -68,7 +68,7 @@ pub enum Behind<'a, W: Complete> {
     /// Stepper, interpolator, shader of a height map.
     Terrain(&'a TerrainUnits<W>, Box<[Bench<'a, W>; 3]>),
     /// Shader of a plane.
-    Plane(&'a PlaneShader<W>, Box<Bench<'a, W>>),
+    Plane(&'a Checker<W>, Box<Bench<'a, W>>),
 }
 
 impl<'a, W: Complete> Behind<'a, W> {

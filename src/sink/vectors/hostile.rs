@@ -6,10 +6,10 @@ use super::units::{accumulators, shift};
 use crate::frame::Hit;
 use crate::setup::TerrainUnits;
 use crate::unit::Line;
+use crate::unit::checker::Checker;
 use crate::unit::divider::Divider;
 use crate::unit::line::Entry;
 use crate::unit::projector::{Linear, Projector};
-use crate::unit::shader::PlaneShader;
 use crate::unit::stepper::SurfaceUnit;
 use crate::word::format::mix;
 use crate::word::{Complete, Fixed, Load, Readout, Register, Word};
@@ -303,7 +303,7 @@ impl<W: Complete> Hostile<W> {
     /// goes with it, often one where squares fade.
     pub fn checker(
         &mut self,
-        unit: &PlaneShader<W>,
+        unit: &Checker<W>,
         divider: Option<&Divider<W>>,
         pixels: u32,
     ) -> Line<W> {

@@ -7,7 +7,9 @@ use super::wires::{
     packed, place, wire, word,
 };
 use crate::unit::Line;
-use crate::unit::shader::{Flat, PlaneShader, TerrainShader};
+use crate::unit::checker::Checker;
+use crate::unit::color::Flat;
+use crate::unit::shader::TerrainShader;
 use crate::word::{Complete, Readout, Register};
 
 fn flat(flat: &Flat) -> [Coefficient; 3] {
@@ -51,7 +53,7 @@ pub fn shader<'a, W: Complete>(world: &W, unit: &TerrainShader<W>) -> Unit<'a, W
 }
 
 /// The shader of planes.
-pub fn checker<'a, W: Complete>(world: &W, unit: &PlaneShader<W>) -> Unit<'a, W> {
+pub fn checker<'a, W: Complete>(world: &W, unit: &Checker<W>) -> Unit<'a, W> {
     use Register as R;
     let mut coefficients = flat(&unit.flat).to_vec();
     for (at, channel) in ["red", "green", "blue"].into_iter().enumerate() {

@@ -131,7 +131,7 @@ pub fn place<W: Bits>(size: i32, random: &mut Random) -> i64 {
     let fraction = match random.below(4) {
         0 => random.among(&[0, 1, one - 1, one / 2, one / 2 - 1, one / 2 + 1]),
         // About the border between two entries.
-        1 => (random.below(64) << (W::POINT - 6)) + random.below(3) & (one - 1),
+        1 => ((random.below(64) << (W::POINT - 6)) + random.below(3) - 1) & (one - 1),
         _ => random.below(one),
     };
     cell * one + fraction

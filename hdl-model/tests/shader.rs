@@ -86,7 +86,7 @@ fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &TerrainShader<W>) {
         rtl.edge();
         rtl.set(strobe, 0);
     };
-    for light in &shader.light {
+    if let Some(light) = &shader.light {
         for (at, &entry) in light.rsqrt.iter().enumerate() {
             write(load_rsqrt, at, bits(entry));
         }

@@ -187,30 +187,26 @@ module shader #(
 
   // Light, 5 and 6: squares and products with the light. The square of the vertical component is
   // 2^-2shift, or nothing below the last bit; beside it stands the half entry of the table's address.
-  logic signed [2*F+3:0] square_x, square_z, dot_x, dot_z;
-  logic signed [2*F+3:0] square_x_6, square_z_6, dot_x_6, dot_z_6;
+  logic [2*F+3:0] square_x, square_z, square_x_6, square_z_6;
+  logic signed [2*F+3:0] dot_x, dot_z, dot_x_6, dot_z_6;
   logic signed [F+1:0] light_y_5, light_y_6;
   logic [SHIFT-1:0] shift_5;
   logic [F-1:0] square_y, square_y_6;
 
-  product #(
-      .A(F + 2),
-      .B(F + 2)
-  ) multiply_square_x (
+  square #(
+      .A(F + 2)
+  ) square_of_x (
       .clock(clock),
       .a(x_4),
-      .b(x_4),
-      .result(square_x)
+      .p(square_x)
   );
 
-  product #(
-      .A(F + 2),
-      .B(F + 2)
-  ) multiply_square_z (
+  square #(
+      .A(F + 2)
+  ) square_of_z (
       .clock(clock),
       .a(z_4),
-      .b(z_4),
-      .result(square_z)
+      .p(square_z)
   );
 
   product #(
@@ -255,13 +251,13 @@ module shader #(
 
   logic [F+1:0] rsqrt[TABLE];
   logic [F+1:0] rsqrt_7;
-  logic [2*F+3:0] square;
+  logic [2*F+3:0] square_sum;
   logic [UNIT-1:0] entry;
   logic signed [2*F+3:0] dot;
   logic signed [F+2:0] dot_7;
 
-  assign square = square_x_6 + square_z_6 + $signed({4'b0, square_y_6, HALF});
-  assign entry = square[2*F+1:2*F-RSQRT_LOG2];
+  assign square_sum = square_x_6 + square_z_6 + {4'b0, square_y_6, HALF};
+  assign entry = square_sum[2*F+1:2*F-RSQRT_LOG2];
   assign dot = dot_x_6 + dot_z_6 + $signed({{2{light_y_6[F+1]}}, light_y_6, HALF});
 
   always_ff @(posedge clock) begin

@@ -15,7 +15,7 @@ use terraline::unit::checker::Checker;
 use terraline::unit::color::Flat;
 use terraline::unit::line::Entry;
 use terraline::word::stock::{Narrow, Wide};
-use terraline::word::{Complete, Lane, Register};
+use terraline::word::{Cell, Complete, Lane, Multiply, Register, Site, Word};
 use terraline_hdl::Model;
 
 const TAG: u64 = 0xffff;
@@ -193,13 +193,19 @@ fn hostile_checker<W: Stock>(world: W, random: &mut Random) -> (Checker<W>, i64)
     let limit = limit.min(largest.into()) as i64;
     let full = if limit < largest || random.is(128) {
         Some(match random.within(0, 2) {
-            0 => limit,
+            0 | 1 => limit,
             _ => random.within(0, limit),
         })
     } else {
         None
     };
-    let gain = [0, one, 2 * one, random.within(0, 2 * one)][random.within(0, 3) as usize];
+    let gain = match random.within(0, 7) {
+        0 => 0,
+        1 | 2 => one,
+        3 => 2 * one,
+        4 => random.within(0, one),
+        _ => random.within(one, 2 * one),
+    };
     let checker = Checker {
         flat,
         mean: std::array::from_fn(|at| half(even[at] + odd[at])),
@@ -213,8 +219,43 @@ fn hostile_checker<W: Stock>(world: W, random: &mut Random) -> (Checker<W>, i64)
     (checker, full.map_or(limit, |full| (full - 1).max(0)))
 }
 
+/// Whether a channel is so near to half a level that an error in the contrast's last bit, times the
+/// swing, may move it to the other byte.
+fn is_near_rounding<W: Stock>(checker: &Checker<W>, denominator: W::View, within: i64) -> bool {
+    let half = 1_i64 << (W::Tone::FRACTION - 1);
+    let site = Site::pixel(0, 0);
+    let contrast = checker.contrast(denominator, site);
+    // Means may be half levels themselves.
+    let fades = contrast.sign() > 0 && contrast < checker.one;
+    let mut channels = checker.mean.iter().zip(&checker.swing);
+    fades
+        && channels.any(|(&mean, &swing)| {
+            let channel = mean + swing.multiply(contrast, site);
+            (bits(channel.fraction()) - half).abs() < within
+        })
+}
+
+/// A denominator whose contrast c, where gain is one, brings a channel to half a level by the
+/// rounding of its product alone: an odd swing s, counted in half levels, with s·c = −1 modulo two
+/// levels.
+fn tie<W: Stock>(checker: &Checker<W>, channel: usize) -> i64 {
+    let point = W::Tone::FRACTION;
+    let swing = bits(checker.swing[channel]) >> (point - 1);
+    // Newton's iteration doubles the right bits of the reciprocal modulo a power of two.
+    let mut reciprocal = swing;
+    for _ in 0..6 {
+        let error = 2_i64.wrapping_sub(swing.wrapping_mul(reciprocal));
+        reciprocal = reciprocal.wrapping_mul(error);
+    }
+    let contrast = reciprocal.wrapping_neg() & ((2 << point) - 1);
+    let scaled = (1 << point) + contrast;
+    scaled << (W::View::FRACTION - point) >> checker.contrast_exponent.clamp(0, 40)
+}
+
 fn hostile<W: Stock>(world: W, seed: u64) {
     const ITEMS: u32 = 2000;
+    /// Items tried for one near a rounding.
+    const TRIALS: u32 = 200;
     let mut random = Random(seed);
     let mut rtl = Model::new(W::MODEL);
     let largest = i64::MAX >> (64 - W::WIDTH);
@@ -229,17 +270,27 @@ fn hostile<W: Stock>(world: W, seed: u64) {
                 _ => Entry::Met,
             };
             let full = checker.full_from.map_or(0, bits);
-            line.denominator[i] = word(match line.entry[i] {
-                Entry::Met => match random.within(0, 9) {
-                    0 => below,
-                    1 if checker.full_from.is_some() => full,
-                    2 if checker.full_from.is_some() => random.within(full, largest),
-                    3 => (below / 2 + random.within(-1, 1)).clamp(0, below),
-                    4 => random.within(0, below) >> random.within(0, 40),
-                    _ => random.within(0, below),
-                },
-                _ => random.word(W::WIDTH),
-            });
+            // Last bits show where a channel is about to round the other way.
+            let within = [1, 8, 128][random.within(0, 2) as usize];
+            for _ in 0..TRIALS {
+                line.denominator[i] = word(match line.entry[i] {
+                    Entry::Met => match random.within(0, 9) {
+                        0 => below,
+                        1 if checker.full_from.is_some() => full,
+                        2 if checker.full_from.is_some() => random.within(full, largest),
+                        3 => (below / 2 + random.within(-1, 1)).clamp(0, below),
+                        4 => random.within(0, below) >> random.within(0, 40),
+                        5 => tie(&checker, random.within(0, 2) as usize).clamp(0, below),
+                        _ => random.within(0, below),
+                    },
+                    _ => random.word(W::WIDTH),
+                });
+                if line.entry[i] != Entry::Met
+                    || is_near_rounding(&checker, line.denominator[i], within)
+                {
+                    break;
+                }
+            }
             line.ground_x[i] = word(random.word(W::WIDTH));
             line.ground_z[i] = word(random.word(W::WIDTH));
         }

@@ -36,6 +36,10 @@ const fn model(
     Model { name, top, parameters }
 }
 
+/// Memory latency and kernel table of the machines: the largest that scenes may ask for.
+const LATENCY: &str = "OUTSTANDING=64";
+const TABLE: &str = "TABLE_LOG2=16";
+
 /// Every model that tests and commands use.
 const MODELS: &[Model] = &[
     model("queue_1", "queue", &["WIDTH=16", "DEPTH=1"]),
@@ -52,8 +56,11 @@ const MODELS: &[Model] = &[
     model("plane_wide", "terraline", &["WIDE=1", "TERRAIN=0"]),
     model("plane_narrow_serial", "terraline", &["WIDE=0", "TERRAIN=0", "SERIAL=1"]),
     model("plane_wide_serial", "terraline", &["WIDE=1", "TERRAIN=0", "SERIAL=1"]),
-    model("terrain_narrow", "terraline", &["WIDE=0", "OUTSTANDING=64", "TABLE_LOG2=16"]),
-    model("terrain_wide", "terraline", &["WIDE=1", "OUTSTANDING=64", "TABLE_LOG2=16"]),
+    model("terrain_narrow", "terraline", &["WIDE=0", LATENCY, TABLE]),
+    model("terrain_wide", "terraline", &["WIDE=1", LATENCY, TABLE]),
+    model("terrain_narrow_3x3", "terraline", &["WIDE=0", "STRETCH=1", LATENCY, TABLE]),
+    model("terrain_wide_3x3", "terraline", &["WIDE=1", "STRETCH=1", LATENCY, TABLE]),
+    model("terrain_narrow_serial", "terraline", &["WIDE=0", "SERIAL=1", LATENCY, TABLE]),
     model("product_5_3", "product", &["A=5", "B=3"]),
     model("product_5_4", "product", &["A=5", "B=4", "SIGNED=0"]),
     model("product_32_21", "product", &["A=32", "B=21", "SIGNED=0"]),

@@ -75,7 +75,6 @@ pub fn compare<W: Complete>(
     parameters: &Parameters,
     sink: Sink,
     trace: Option<(&str, Window)>,
-    progress: impl FnMut(u64),
 ) -> Result<Outcome, String> {
     let mut machine = Machine::new(setup, parameters)?;
     let chain = Chain::new(setup, parameters, false);
@@ -92,7 +91,7 @@ pub fn compare<W: Complete>(
         clock.take_line(&line, |_, _| {});
     }
     let limit = clock.cycles() + clock.cycles() / 8 + 10_000;
-    let drawn = draw(&mut machine, pixels, limit, sink, trace, progress)?;
+    let drawn = draw(&mut machine, pixels, limit, sink, trace)?;
     let mut outcome = Outcome {
         pixels,
         cycles: drawn.taken[UNITS.len() - 1].last().map_or(0, |last| last + 1),
@@ -147,7 +146,6 @@ fn draw<W: Complete>(
     limit: u64,
     sink: Sink,
     trace: Option<(&str, Window)>,
-    mut progress: impl FnMut(u64),
 ) -> Result<Run, String> {
     let mut run = Run {
         taken: vec![Vec::new(); UNITS.len()],
@@ -176,9 +174,6 @@ fn draw<W: Complete>(
             run.waits[unit] += now.waits >> unit & 1;
         }
         cycle += 1;
-        if cycle % (1 << 16) == 0 {
-            progress(run.taken[frame].len() as u64);
-        }
     }
     Ok(run)
 }

@@ -16,6 +16,8 @@ mod memory;
 #[cfg(rtl)]
 mod model;
 pub mod package;
+#[cfg(rtl)]
+mod waves;
 
 #[cfg(rtl)]
 pub use model::{Model, Port};

@@ -91,6 +91,15 @@ pub fn model_for<W: Complete>(setup: &Setup<W>, parameters: &Parameters) -> Resu
     if parameters.ratio == RatioForm::Serial && setup.divider.is_some() {
         name += "_serial";
     }
+    if matches!(name.as_str(), "terrain_wide_serial" | "terrain_narrow_3x3_serial")
+        || name == "terrain_wide_3x3_serial"
+    {
+        return Err(
+            "machine.ratio: no machine with a serial divider is made for height maps in wide \
+                    words or with 3x3 nodes; use array"
+                .into(),
+        );
+    }
     Ok(name)
 }
 

@@ -22,7 +22,7 @@ impl InFixedWorld for Cosimulation<'_> {
     fn run<W: Complete + Enterable>(self, world: W) -> Outcome {
         let memory = Memory::new(&world, self.scene, self.plan).expect("memories");
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref()).expect("a set-up");
-        compare(&setup, &self.scene.machine, self.sink, None, |_| {}).expect("a frame")
+        compare(&setup, &self.scene.machine, self.sink, None).expect("a frame")
     }
 }
 
@@ -64,5 +64,27 @@ fn terrain() {
             assert_equal(name, &["screen.size=[160, 120]", latency], Sink::Ready);
         }
         assert_equal(name, &["screen.size=[160, 120]", "machine.memory_latency=5"], BUSY);
+    }
+}
+
+#[test]
+fn other_machines_for_height_maps() {
+    for sets in [
+        // The other word size, the other kernels, the other divider, the other stepper.
+        &["machine.words=wide"][..],
+        &["kernel.deformation=1"],
+        &["kernel.deformation=1", "machine.words=wide", "machine.memory_latency=5"],
+        &["machine.ratio=serial"],
+        &["stepper.mode=plain"],
+        &["kernel.shape=hat", "stepper.halvings=0"],
+        &["kernel.deformation=0", "kernel.table=65536", "stepper.fineness=0"],
+        &["surface.outside=clamp", "stepper.fineness=6"],
+        &["light.ambient=1", "machine.memory_latency=64"],
+        &["surface.cell=[1.5, 0.75]", "machine.memory_latency=1"],
+    ] {
+        for name in ["overview", "flight"] {
+            let sets: Vec<&str> = [&["screen.size=[40, 30]"], sets].concat();
+            assert_equal(name, &sets, BUSY);
+        }
     }
 }

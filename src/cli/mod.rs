@@ -8,8 +8,8 @@ mod info;
 mod outputs;
 mod plan;
 mod render;
-mod report;
-mod scene_args;
+pub mod report;
+pub mod scene_args;
 mod scene_out;
 mod scenes;
 mod vectors;
@@ -42,7 +42,7 @@ enum Command {
 
 /// Why a command stops.
 #[derive(Debug)]
-enum Stop {
+pub enum Stop {
     /// Exit 1: a study found a failure; the report says which.
     Failure,
     /// Exit 2: one message.

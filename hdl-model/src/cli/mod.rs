@@ -1,9 +1,13 @@
 //! The command line of the package.
 
+#[cfg(rtl)]
+mod cosim;
+
 use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use terraline::cli::{Stop, report};
 
 use crate::package;
 
@@ -17,6 +21,15 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    #[cfg(rtl)]
+    Cosim(cosim::Cosim),
+    /// Draw a scene with the RTL and compare it with the emulator: left out, there is no Verilator.
+    #[cfg(not(rtl))]
+    Cosim {
+        /// Whatever the command takes where it is built.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<String>,
+    },
     /// Write the generated files of rtl/ anew.
     Generate,
 }
@@ -29,22 +42,31 @@ pub fn generated() -> [(&'static str, String); 2] {
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
     let result = match Arguments::parse().command {
+        #[cfg(rtl)]
+        Command::Cosim(command) => command.run(),
+        #[cfg(not(rtl))]
+        Command::Cosim { .. } => Err(Stop::BadInput(format!(
+            "cosim is left out of this build: {}; then build anew",
+            crate::missing().unwrap_or("no models of the RTL")
+        ))),
         Command::Generate => generate(),
     };
     match result {
-        Ok(code) => code,
-        Err(message) => {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Stop::Failure) => ExitCode::FAILURE,
+        Err(Stop::BadInput(message)) => {
             eprintln!("error: {message}");
             ExitCode::from(2)
         }
     }
 }
 
-fn generate() -> Result<ExitCode, String> {
+fn generate() -> Result<(), Stop> {
     for (file, text) in generated() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
-        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
-        println!("{}", path.display());
+        std::fs::write(&path, text)
+            .map_err(|error| Stop::BadInput(format!("{}: {error}", path.display())))?;
+        report::print(&path.display().to_string());
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }

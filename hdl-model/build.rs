@@ -5,9 +5,11 @@
 //! fails instead. `SKIP_RTL=1` makes no models although Verilator is there: for `generate`, while
 //! the generated files do not fit the others.
 
+use std::collections::hash_map::DefaultHasher;
 use std::env;
 use std::fmt::Write as _;
 use std::fs;
+use std::hash::{Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -146,6 +148,8 @@ fn include_folder() -> Result<PathBuf, String> {
     }
 }
 
+/// Makes the models, or takes those that an earlier build made of the same sources: tests, commands
+/// and lints build the package in several ways, and the models take a minute or more.
 fn build(include: &Path) {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     let mut sources: Vec<PathBuf> = fs::read_dir("rtl")
@@ -155,10 +159,44 @@ fn build(include: &Path) {
         .collect();
     // The package comes first: the others use it.
     sources.sort_by_key(|path| (!path.ends_with("terraline_pkg.sv"), path.clone()));
+    // OUT_DIR is target/PROFILE/build/PACKAGE/out.
+    let profile = out.ancestors().nth(3).expect("cargo nests OUT_DIR").to_owned();
+    let models = profile.join(format!("rtl-{:016x}", fingerprint(&sources)));
+    if !models.is_dir() {
+        let making = out.join("models");
+        let _ = fs::remove_dir_all(&making);
+        fs::create_dir_all(&making).expect("OUT_DIR is writable");
+        make(include, &sources, &making);
+        // Whoever is second finds the same models there.
+        if fs::rename(&making, &models).is_err() {
+            assert!(models.is_dir(), "{} cannot be made", models.display());
+        }
+    }
+    println!("cargo::rustc-link-search=native={}", models.display());
+    for library in ["static=terraline_rtl_once", "static=terraline_rtl", "stdc++", "z"] {
+        println!("cargo::rustc-link-lib={library}");
+    }
+}
+
+/// A hash of everything that models are made of.
+fn fingerprint(sources: &[PathBuf]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let others = ["build.rs", "rtl/waivers.vlt", "shim/model.hpp", "shim/model.cpp"];
+    for path in sources.iter().cloned().chain(others.map(PathBuf::from)) {
+        path.hash(&mut hasher);
+        fs::read(&path).expect("a source is readable").hash(&mut hasher);
+    }
+    let version = Command::new("verilator").arg("--version").output();
+    version.expect("verilator was found a moment ago").stdout.hash(&mut hasher);
+    env::var("TARGET").expect("cargo sets TARGET").hash(&mut hasher);
+    hasher.finish()
+}
+
+fn make(include: &Path, sources: &[PathBuf], out: &Path) {
     let compiler = |level| {
         let mut cpp = cc::Build::new();
         cpp.cpp(true).std("c++17").include(include).include("shim").warnings(false).debug(false);
-        cpp.opt_level(level);
+        cpp.opt_level(level).out_dir(out).cargo_metadata(false);
         cpp
     };
     // What runs in every cycle, and what runs once.
@@ -175,7 +213,7 @@ fn build(include: &Path) {
     let mut rows = String::new();
     for model in MODELS {
         let folder = out.join(model.name);
-        verilate(model, &sources, &folder);
+        verilate(model, sources, &folder);
         often.include(&folder);
         once.include(&folder);
         let prefix = format!("V{}", model.name);
@@ -195,7 +233,7 @@ fn build(include: &Path) {
         slow.push_str(&ports(model, &prefix, &header));
         for (build, kind, text) in [(&mut often, "fast", fast), (&mut once, "slow", slow)] {
             let file = out.join(format!("{}_{kind}.cpp", model.name));
-            fs::write(&file, text).expect("OUT_DIR is writable");
+            fs::write(&file, text).expect("the folder is writable");
             build.file(file);
         }
         let _ = writeln!(table, "Model *make_{}();", model.name);
@@ -209,14 +247,9 @@ fn build(include: &Path) {
     }
     once.file(rows).file("shim/model.cpp").compile("terraline_rtl_once");
     often.compile("terraline_rtl");
-    println!("cargo::rustc-link-lib=z");
 }
 
 fn verilate(model: &Model, sources: &[PathBuf], folder: &Path) {
-    // Files that an earlier run left would be compiled as well.
-    if folder.exists() {
-        fs::remove_dir_all(folder).expect("OUT_DIR is writable");
-    }
     let mut command = Command::new("verilator");
     command
         .args(["--cc", "-Wall", "-O3", "--x-assign", "fast", "--output-split", "0"])

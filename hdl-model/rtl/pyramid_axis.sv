@@ -9,6 +9,9 @@ module pyramid_axis #(
     output logic        [CELL-1:0] stored,      // index of the stored bound
     output logic                   none         // there is none
 );
+  // A constant: Yosys 0.23 takes -N'(x) for (-N)'(x).
+  localparam logic signed [CELL:0] MARGIN = -1;
+
   // Where the map ends, blocks -1 to ceil((nodes - 1) / 2^m) are stored, else those with nodes.
   logic signed [CELL:0] block, last;
   logic [CELL:0] edge_cell, rounded;
@@ -21,7 +24,7 @@ module pyramid_axis #(
   always_comb begin
     none = 1'b0;
     if (ends) begin
-      none   = block < -(CELL + 1)'(1) || block > last;
+      none   = block < MARGIN || block > last;
       stored = CELL'(block) + CELL'(1);
     end else if (block < 0) begin
       stored = '0;

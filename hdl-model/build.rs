@@ -12,6 +12,9 @@ use std::fs;
 use std::hash::{Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::thread;
 
 /// A module of `rtl/` with the parameters that a model of it is made with.
 struct Model {
@@ -46,6 +49,8 @@ const TABLE: &str = "TABLE_LOG2=16";
 const MODELS: &[Model] = &[
     model("queue_1", "queue", &["WIDTH=16", "DEPTH=1"]),
     model("queue_5", "queue", &["WIDTH=16", "DEPTH=5"]),
+    model("projector_narrow", "projector", &["WIDE=0"]),
+    model("projector_wide", "projector", &["WIDE=1"]),
     model("divider_narrow", "divider", &["WIDE=0"]),
     model("divider_wide", "divider", &["WIDE=1"]),
     model("divider_serial_narrow", "divider", &["WIDE=0", "SERIAL=1"]),
@@ -149,104 +154,154 @@ fn include_folder() -> Result<PathBuf, String> {
 }
 
 /// Makes the models, or takes those that an earlier build made of the same sources: tests, commands
-/// and lints build the package in several ways, and the models take a minute or more.
+/// and lints build the package in several ways, and all models together take a minute or more.
 fn build(include: &Path) {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    let mut sources: Vec<PathBuf> = fs::read_dir("rtl")
-        .expect("rtl/ is a folder")
-        .map(|entry| entry.expect("a readable folder").path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "sv"))
-        .collect();
-    // The package comes first: the others use it.
-    sources.sort_by_key(|path| (!path.ends_with("terraline_pkg.sv"), path.clone()));
     // OUT_DIR is target/PROFILE/build/PACKAGE/out.
-    let profile = out.ancestors().nth(3).expect("cargo nests OUT_DIR").to_owned();
-    let models = profile.join(format!("rtl-{:016x}", fingerprint(&sources)));
-    if !models.is_dir() {
-        let making = out.join("models");
-        let _ = fs::remove_dir_all(&making);
-        fs::create_dir_all(&making).expect("OUT_DIR is writable");
-        make(include, &sources, &making);
-        // Whoever is second finds the same models there.
-        if fs::rename(&making, &models).is_err() {
-            assert!(models.is_dir(), "{} cannot be made", models.display());
-        }
-    }
-    println!("cargo::rustc-link-search=native={}", models.display());
-    for library in ["static=terraline_rtl_once", "static=terraline_rtl", "stdc++", "z"] {
-        println!("cargo::rustc-link-lib={library}");
-    }
-}
-
-/// A hash of everything that models are made of.
-fn fingerprint(sources: &[PathBuf]) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    let others = ["build.rs", "rtl/waivers.vlt", "shim/model.hpp", "shim/model.cpp"];
-    for path in sources.iter().cloned().chain(others.map(PathBuf::from)) {
-        path.hash(&mut hasher);
-        fs::read(&path).expect("a source is readable").hash(&mut hasher);
-    }
+    let profile = out.ancestors().nth(3).expect("cargo nests OUT_DIR");
+    let kept = profile.join("rtl");
+    fs::create_dir_all(&kept).expect("the build folder is writable");
     let version = Command::new("verilator").arg("--version").output();
-    version.expect("verilator was found a moment ago").stdout.hash(&mut hasher);
-    env::var("TARGET").expect("cargo sets TARGET").hash(&mut hasher);
-    hasher.finish()
-}
-
-fn make(include: &Path, sources: &[PathBuf], out: &Path) {
-    let compiler = |level| {
-        let mut cpp = cc::Build::new();
-        cpp.cpp(true).std("c++17").include(include).include("shim").warnings(false).debug(false);
-        cpp.opt_level(level).out_dir(out).cargo_metadata(false);
-        cpp
+    let version = version.expect("verilator was found a moment ago").stdout;
+    let print = |parts: &[&[u8]]| {
+        let mut hasher = DefaultHasher::new();
+        let target = env::var("TARGET").expect("cargo sets TARGET");
+        for file in ["build.rs", "rtl/waivers.vlt", "shim/model.hpp", "shim/model.cpp"] {
+            read(file).hash(&mut hasher);
+        }
+        (parts, &version, target).hash(&mut hasher);
+        format!("{:016x}", hasher.finish())
     };
-    // What runs in every cycle, and what runs once.
-    let (mut often, mut once) = (compiler(1), compiler(0));
-    let mut cpp = cc::Build::new();
-    cpp.cpp(true)
-        .std("c++17")
-        .include(include)
-        .include("shim")
-        .warnings(false)
-        .opt_level(2)
-        .debug(false);
+    let link = |folder: &Path, library: &str| {
+        println!("cargo::rustc-link-search=native={}", folder.display());
+        println!("cargo::rustc-link-lib=static={library}");
+    };
+    let made = |model: &Model| {
+        let sources = sources(model.top);
+        let texts: Vec<Vec<u8>> = sources.iter().map(read).collect();
+        let mut parts: Vec<&[u8]> = texts.iter().map(Vec::as_slice).collect();
+        let parameters = model.parameters.join(" ");
+        parts.push(parameters.as_bytes());
+        let folder = kept.join(format!("{}-{}", model.name, print(&parts)));
+        keep(&folder, &out.join(model.name), |making| make(model, &sources, include, making));
+        folder
+    };
+    // As many at a time as there are processors, the largest ones first.
+    let next = AtomicUsize::new(0);
+    let folders = Mutex::new(vec![PathBuf::new(); MODELS.len()]);
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                while let Some(at) = MODELS.len().checked_sub(1 + next.fetch_add(1, Relaxed)) {
+                    let folder = made(&MODELS[at]);
+                    folders.lock().expect("no other thread fails")[at] = folder;
+                }
+            });
+        }
+    });
+    let folders = folders.into_inner().expect("no thread failed");
     let mut table = String::from("#include \"model.hpp\"\n");
     let mut rows = String::new();
-    for model in MODELS {
-        let folder = out.join(model.name);
-        verilate(model, sources, &folder);
-        often.include(&folder);
-        once.include(&folder);
-        let prefix = format!("V{}", model.name);
-        // One file each: most of the time goes into Verilator's headers.
-        let (mut fast, mut slow) = (String::new(), String::new());
-        for entry in fs::read_dir(&folder).expect("verilator made the folder") {
-            let name = entry.expect("a readable folder").file_name();
-            let name = name.to_string_lossy();
-            if name.ends_with(".cpp") {
-                let runs_once = name.contains("Slow") || name.contains("Trace");
-                let file = if runs_once { &mut slow } else { &mut fast };
-                let _ = writeln!(file, "#include \"{name}\"");
-            }
-        }
-        let header = fs::read_to_string(folder.join(format!("{prefix}.h")))
-            .expect("verilator made the model's header");
-        slow.push_str(&ports(model, &prefix, &header));
-        for (build, kind, text) in [(&mut often, "fast", fast), (&mut once, "slow", slow)] {
-            let file = out.join(format!("{}_{kind}.cpp", model.name));
-            fs::write(&file, text).expect("the folder is writable");
-            build.file(file);
-        }
+    let mut libraries = Vec::new();
+    for (model, folder) in MODELS.iter().zip(folders) {
+        libraries.push((folder, format!("rtl_{}", model.name)));
         let _ = writeln!(table, "Model *make_{}();", model.name);
         let _ = writeln!(rows, "    {{\"{}\", make_{}}},", model.name, model.name);
     }
     let _ = write!(table, "const Row rows[] = {{\n{rows}    {{nullptr, nullptr}},\n}};\n");
-    let rows = out.join("models.cpp");
-    fs::write(&rows, table).expect("OUT_DIR is writable");
-    for runtime in ["verilated.cpp", "verilated_threads.cpp", "verilated_fst_c.cpp"] {
-        often.file(include.join(runtime));
+    let folder = kept.join(format!("shim-{}", print(&[table.as_bytes()])));
+    keep(&folder, &out.join("shim"), |making| {
+        let rows = making.join("models.cpp");
+        fs::write(&rows, &table).expect("the build folder is writable");
+        let mut cpp = compiler(include, making, 1);
+        for runtime in ["verilated.cpp", "verilated_threads.cpp", "verilated_fst_c.cpp"] {
+            cpp.file(include.join(runtime));
+        }
+        cpp.file(rows).file("shim/model.cpp").compile("rtl_shim");
+    });
+    // A library is asked for what is missing so far: the shim for models, models for the runtime.
+    link(&folder, "rtl_shim");
+    for (folder, library) in &libraries {
+        link(folder, library);
     }
-    once.file(rows).file("shim/model.cpp").compile("terraline_rtl_once");
-    often.compile("terraline_rtl");
+    for library in ["static=rtl_shim", "stdc++", "z"] {
+        println!("cargo::rustc-link-lib={library}");
+    }
+}
+
+fn read(file: impl AsRef<Path>) -> Vec<u8> {
+    let file = file.as_ref();
+    fs::read(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
+}
+
+/// A module's file, and those of all modules that are named in it; the package first.
+fn sources(top: &str) -> Vec<PathBuf> {
+    let file = |module: &str| Path::new("rtl").join(module).with_extension("sv");
+    let mut found = vec!["terraline_pkg".to_owned(), top.to_owned()];
+    let mut at = 1;
+    while at < found.len() {
+        let text = String::from_utf8(read(file(&found[at]))).expect("sources are UTF-8");
+        for word in text.split(|c: char| !c.is_alphanumeric() && c != '_') {
+            if !found.iter().any(|known| known == word) && file(word).is_file() {
+                found.push(word.to_owned());
+            }
+        }
+        at += 1;
+    }
+    found[1..].sort();
+    found.iter().map(|module| file(module)).collect()
+}
+
+/// Has a folder made where it is not there yet.
+fn keep(folder: &Path, making: &Path, make: impl FnOnce(&Path)) {
+    if folder.is_dir() {
+        return;
+    }
+    let _ = fs::remove_dir_all(making);
+    fs::create_dir_all(making).expect("OUT_DIR is writable");
+    make(making);
+    // Whoever is second finds the same there.
+    if fs::rename(making, folder).is_err() {
+        assert!(folder.is_dir(), "{} cannot be made", folder.display());
+    }
+}
+
+fn compiler(include: &Path, out: &Path, level: u32) -> cc::Build {
+    let mut cpp = cc::Build::new();
+    cpp.cpp(true).std("c++17").include(include).include("shim").warnings(false).debug(false);
+    cpp.opt_level(level).out_dir(out).cargo_metadata(false);
+    cpp
+}
+
+/// Makes the library of one model.
+fn make(model: &Model, sources: &[PathBuf], include: &Path, out: &Path) {
+    let folder = out.join("cpp");
+    verilate(model, sources, &folder);
+    let prefix = format!("V{}", model.name);
+    // What runs in every cycle, and what runs once; one file each, as most of the time goes into
+    // Verilator's headers.
+    let (mut fast, mut slow) = (String::new(), String::new());
+    for entry in fs::read_dir(&folder).expect("verilator made the folder") {
+        let name = entry.expect("a readable folder").file_name();
+        let name = name.to_string_lossy();
+        if name.ends_with(".cpp") {
+            let runs_once = name.contains("Slow") || name.contains("Trace");
+            let file = if runs_once { &mut slow } else { &mut fast };
+            let _ = writeln!(file, "#include \"{name}\"");
+        }
+    }
+    let header = fs::read_to_string(folder.join(format!("{prefix}.h")))
+        .expect("verilator made the model's header");
+    slow.push_str(&ports(model, &prefix, &header));
+    let mut objects = Vec::new();
+    for (level, kind, text) in [(1, "fast", fast), (0, "slow", slow)] {
+        let file = out.join(format!("{}_{kind}.cpp", model.name));
+        fs::write(&file, text).expect("OUT_DIR is writable");
+        let mut cpp = compiler(include, out, level);
+        objects.extend(cpp.include(&folder).file(file).compile_intermediates());
+    }
+    let mut library = compiler(include, out, 1);
+    library.objects(objects).compile(&format!("rtl_{}", model.name));
 }
 
 fn verilate(model: &Model, sources: &[PathBuf], folder: &Path) {

@@ -68,15 +68,29 @@ struct Run {
 /// Draws a frame with both, and compares.
 ///
 /// # Errors
-/// If the RTL cannot draw this set-up, the trace cannot be written, or the RTL stops handing out
-/// pixels.
+/// If the RTL cannot draw this set-up, the trace cannot be written, or the RTL reads beside its
+/// memories.
 pub fn compare<W: Complete>(
     setup: &Setup<W>,
     parameters: &Parameters,
     sink: Sink,
     trace: Option<(&str, Window)>,
 ) -> Result<Outcome, String> {
-    let mut machine = Machine::new(setup, parameters)?;
+    let machine = Machine::new(setup, parameters)?;
+    compare_with(machine, setup, parameters, sink, trace)
+}
+
+/// Compares the frame of a loaded machine with the emulator's frame of a set-up.
+///
+/// # Errors
+/// As [`compare`].
+pub fn compare_with<W: Complete>(
+    mut machine: Machine<'_, W>,
+    setup: &Setup<W>,
+    parameters: &Parameters,
+    sink: Sink,
+    trace: Option<(&str, Window)>,
+) -> Result<Outcome, String> {
     let chain = Chain::new(setup, parameters, false);
     let fitted: Vec<usize> = chain
         .stages

@@ -1,6 +1,9 @@
 //! Driving one unit: items in with gaps, items out with back-pressure, and the cycles in which
 //! equation 28 has it take them.
 
+// Each test file uses a part of this.
+#![allow(dead_code)]
+
 use terraline::clock::Sink;
 use terraline_hdl::{Model, Port};
 

@@ -168,13 +168,13 @@ fn bounds_cover_their_reach(cell_bits: i64, levels: impl Iterator<Item = i64>) {
             ("pyramid_axis", "stored = CELL'(last)", "stored = CELL'(last) + CELL'(1)"),
         ];
         if level == 2 {
-            // At every level these are possible but at the highest: it has no map beside it.
+                // All of these need a map that is greater than its blocks.
             proof.holds(4, &["cover_none", "cover_margin", "cover_reached", "cover_edge"]);
             for twin in twins {
                 proof.fails_with(twin);
             }
         } else {
-            proof.holds(4, &["cover_reached", "cover_edge"]);
+            proof.holds(4, &["cover_edge"]);
         }
     }
 }
@@ -193,4 +193,44 @@ fn some_wide_bounds_cover_a_jumps_reach() {
 #[ignore = "a minute and a half"]
 fn wide_bounds_cover_a_jumps_reach() {
     bounds_cover_their_reach(26, 0..=20);
+}
+
+const STEPPER: Proof = Proof {
+    harness: "stepper_formal",
+    modules: &[
+        "terraline_pkg",
+        "leading_one",
+        "ray_step",
+        "ray_end",
+        "pyramid_axis",
+        "pyramid",
+        "credit",
+        "queue",
+        "stepper",
+    ],
+    parameters: &[],
+    bound: Some("stepper"),
+    cycles: Some(2),
+};
+
+#[test]
+fn jumps_stay_within_the_remaining_samples() {
+    if !is_possible() {
+        return;
+    }
+    let proof = Proof { parameters: &[("PART", 0), ("JUMP", 4)], ..STEPPER };
+    proof.holds(9, &["cover_far", "cover_group"]);
+    // A jump of twice the samples that remain.
+    let from = "most < $signed({3'b0, wanted_level}) ? most[4:0] : wanted_level";
+    proof.fails_with(("stepper", from, "wanted_level"));
+}
+
+#[test]
+fn jumps_pass_no_sample_below_the_bound() {
+    if !is_possible() {
+        return;
+    }
+    let proof = Proof { parameters: &[("PART", 1), ("JUMP", 4)], ..STEPPER };
+    proof.holds(3, &["cover_jump"]);
+    proof.fails_with(("stepper", "(place_y >= bound && ahead_y >= bound)", "(place_y >= bound)"));
 }

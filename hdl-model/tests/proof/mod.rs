@@ -86,7 +86,8 @@ impl Proof<'_> {
         }
         script += &format!(" formal/{}.sv\nhierarchy", self.harness);
         script += &format!(" -check -top {}", self.bound.unwrap_or(self.harness));
-        for (name, value) in self.parameters {
+        // Those of a bound harness are in its instance.
+        for (name, value) in self.parameters.iter().filter(|_| self.bound.is_none()) {
             script += &format!(" -chparam {name} {value}");
         }
         script + "\nproc\nflatten\nmemory -nomap\nmemory_map\nopt -full\n"
@@ -111,8 +112,12 @@ impl Proof<'_> {
                 .expect("a harness");
             let bind = format!("\nbind {module} ");
             let (_, instance) = harness.split_once(&bind).expect("the harness is bound");
+            let mut instance = instance.to_owned();
+            for (name, value) in self.parameters {
+                instance = instance.replace(&format!(".{name}({name})"), &format!(".{name}({value})"));
+            }
             let end = text.rfind("endmodule").expect("a module's end");
-            text.insert_str(end, instance);
+            text.insert_str(end, &instance);
         }
         let copy = self.folder(twin.map_or("holds", |_| "twin")).join(format!("{module}.sv"));
         fs::write(&copy, text).expect("the folder for tests is writable");

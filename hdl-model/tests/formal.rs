@@ -105,7 +105,8 @@ fn wrong_products_are_found() {
 
 /// Shapes of all multipliers and partial sums of a machine, as Yosys elaborates it.
 fn multipliers(wide: i64, terrain: i64, stretch: i64) -> (BTreeSet<Shape>, BTreeSet<Shape>) {
-    let machine = format!("-chparam WIDE {wide} -chparam TERRAIN {terrain} -chparam STRETCH {stretch}");
+    let machine =
+        format!("-chparam WIDE {wide} -chparam TERRAIN {terrain} -chparam STRETCH {stretch}");
     let (done, text) = yosys(&format!(
         "read_verilog -sv rtl/terraline_pkg.sv\nread_verilog -sv rtl/[!t]*.sv rtl/terraline.sv\n\
          hierarchy -check -top terraline {machine}"
@@ -117,7 +118,9 @@ fn multipliers(wide: i64, terrain: i64, stretch: i64) -> (BTreeSet<Shape>, BTree
         // Each instance: a heading, its parameters, the module that they make.
         let Some((_, module)) = line.split_once("pre-parsed AST for module `\\") else { continue };
         let module = module.trim_end_matches("'.");
-        let Some((_, shapes)) = found.iter_mut().find(|(name, _)| *name == module) else { continue };
+        let Some((_, shapes)) = found.iter_mut().find(|(name, _)| *name == module) else {
+            continue;
+        };
         let (mut a, mut b, mut signed) = (32, if module == "product" { 22 } else { 8 }, 0);
         if module == "product" {
             signed = 1;
@@ -168,7 +171,7 @@ fn bounds_cover_their_reach(cell_bits: i64, levels: impl Iterator<Item = i64>) {
             ("pyramid_axis", "stored = CELL'(last)", "stored = CELL'(last) + CELL'(1)"),
         ];
         if level == 2 {
-                // All of these need a map that is greater than its blocks.
+            // All of these need a map that is greater than its blocks.
             proof.holds(4, &["cover_none", "cover_margin", "cover_reached", "cover_edge"]);
             for twin in twins {
                 proof.fails_with(twin);
@@ -230,7 +233,7 @@ fn jumps_pass_no_sample_below_the_bound() {
     if !is_possible() {
         return;
     }
-    let proof = Proof { parameters: &[("PART", 1), ("JUMP", 4)], ..STEPPER };
+    let proof = Proof { parameters: &[("PART", 1), ("JUMP", 4)], cycles: Some(1), ..STEPPER };
     proof.holds(3, &["cover_jump"]);
     proof.fails_with(("stepper", "(place_y >= bound && ahead_y >= bound)", "(place_y >= bound)"));
 }

@@ -15,7 +15,8 @@ pub struct Proof<'a> {
     pub parameters: &'a [(&'a str, i64)],
     /// Module that the harness is bound into, where it is not the top module itself.
     pub bound: Option<&'a str>,
-    /// Over how many cycles a case may be reached; none where there are no registers.
+    /// Over how many cycles a case may be reached; none where there are no registers, 1 where the
+    /// assertions are about one cycle, with registers of any content.
     pub cycles: Option<u32>,
 }
 
@@ -50,12 +51,8 @@ impl Proof<'_> {
     /// Shows that the assertions always hold, that there are `assertions` of them, and that under the
     /// assumptions each of `covers` may be one.
     pub fn holds(&self, assertions: usize, covers: &[&str]) {
-        let (proof, cover) = match self.cycles {
-            None => (String::new(), String::new()),
-            Some(cycles) => {
-                (" -tempinduct -seq 1 -maxsteps 2".to_owned(), format!(" -seq {cycles}"))
-            }
-        };
+        let proof = self.induction();
+        let cover = self.cycles.map_or(String::new(), |cycles| format!(" -seq {cycles}"));
         let mut script = self.script(None);
         script += &format!("sat -set-assumes -show-ports -prove-asserts -verify{proof}\n");
         for port in covers {
@@ -64,7 +61,7 @@ impl Proof<'_> {
         }
         let (done, text) = self.run(&script, "holds");
         assert!(done, "{self:?} does not hold, or a case is not possible:\n{}", tail(&text));
-        let steps = if self.cycles.is_some() { 2 } else { 1 };
+        let steps = if self.cycles > Some(1) { 2 } else { 1 };
         let found = text.matches("Import proof for assert:").count();
         assert!(found >= assertions * steps, "{self:?}: {found} assertions in {steps} steps");
     }
@@ -72,10 +69,19 @@ impl Proof<'_> {
     /// Shows that the assertions fail where the RTL is changed.
     pub fn fails_with(&self, twin: Twin) {
         let script = self.script(Some(twin));
-        let proof = self.cycles.map_or("", |_| " -tempinduct -seq 1 -maxsteps 2");
+        let proof = self.induction();
         let script = format!("{script}sat -set-assumes -prove-asserts -falsify{proof}\n");
         let (done, text) = self.run(&script, "twin");
         assert!(done, "{self:?} holds with {twin:?} too, or is no proof:\n{}", tail(&text));
+    }
+
+    /// How assertions are proved: by induction over the cycles where there are several.
+    fn induction(&self) -> &'static str {
+        match self.cycles {
+            None => "",
+            Some(1) => " -seq 1",
+            Some(_) => " -tempinduct -seq 1 -maxsteps 2",
+        }
     }
 
     /// Reads and elaborates.
@@ -114,7 +120,8 @@ impl Proof<'_> {
             let (_, instance) = harness.split_once(&bind).expect("the harness is bound");
             let mut instance = instance.to_owned();
             for (name, value) in self.parameters {
-                instance = instance.replace(&format!(".{name}({name})"), &format!(".{name}({value})"));
+                instance =
+                    instance.replace(&format!(".{name}({name})"), &format!(".{name}({value})"));
             }
             let end = text.rfind("endmodule").expect("a module's end");
             text.insert_str(end, &instance);

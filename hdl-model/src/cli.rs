@@ -75,13 +75,15 @@ fn generate() -> Result<ExitCode, String> {
 fn multipliers(map: bool) -> Result<ExitCode, String> {
     let files = yosys::sources()?;
     let mut is_clean = true;
-    let mut report = |name: &str, netlist: &str, cells: &yosys::Cells, found: Vec<(String, u64)>| {
-        is_clean &= found.is_empty();
-        let all: u64 = cells.count.values().sum();
-        let found: Vec<String> = found.iter().map(|(kind, n)| format!("{n} {kind}")).collect();
-        let verdict = if found.is_empty() { "none multiplies".into() } else { found.join(", ") };
-        println!("{name}, {netlist}: {all} cells, {verdict}");
-    };
+    let mut report =
+        |name: &str, netlist: &str, cells: &yosys::Cells, found: Vec<(String, u64)>| {
+            is_clean &= found.is_empty();
+            let all: u64 = cells.count.values().sum();
+            let found: Vec<String> = found.iter().map(|(kind, n)| format!("{n} {kind}")).collect();
+            let verdict =
+                if found.is_empty() { "none multiplies".into() } else { found.join(", ") };
+            println!("{name}, {netlist}: {all} cells, {verdict}");
+        };
     for design in DESIGNS {
         for &wide in design.words() {
             let parameters = design.with_words(wide);

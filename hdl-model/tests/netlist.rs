@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use terraline_hdl::netlist::DESIGNS;
 use terraline_hdl::netlist::multipliers::{foreign, foreign_mapped};
 use terraline_hdl::netlist::yosys::{self, Target};
-use terraline_hdl::netlist::DESIGNS;
 use terraline_hdl::skipped_without;
 
 fn fixture(name: &str) -> [PathBuf; 1] {
@@ -49,8 +49,8 @@ fn no_module_multiplies() {
     let mut seen = BTreeSet::new();
     for design in DESIGNS {
         for &wide in design.words() {
-            let cells = yosys::elaborated(&files, design.top, &design.with_words(wide))
-                .expect("a netlist");
+            let cells =
+                yosys::elaborated(&files, design.top, &design.with_words(wide)).expect("a netlist");
             assert_eq!(foreign(&cells), [], "{} with WIDE={wide}", design.name);
             seen.extend(cells.modules);
         }

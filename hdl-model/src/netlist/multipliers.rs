@@ -8,15 +8,46 @@ use super::yosys::{Cells, Target};
 /// Cells of an elaborated netlist: additions, comparisons, logic, shifts, choices, registers and
 /// memories.
 const ELABORATED: &[&str] = &[
-    "$add", "$sub", "$neg", "$pos", // additions
-    "$eq", "$ne", "$lt", "$le", "$gt", "$ge", // comparisons
-    "$and", "$or", "$xor", "$xnor", "$not", // logic, bit by bit
-    "$logic_and", "$logic_or", "$logic_not", // logic of words
-    "$reduce_and", "$reduce_or", "$reduce_xor", "$reduce_xnor", "$reduce_bool",
-    "$shl", "$shr", "$sshl", "$sshr", "$shift", "$shiftx", // shifts
-    "$mux", "$pmux", // choices
-    "$dff", "$dffe", "$sdff", "$sdffe", "$sdffce", // registers
-    "$mem_v2", "$memrd", "$memrd_v2", "$memwr_v2", // memories
+    "$add",
+    "$sub",
+    "$neg",
+    "$pos", // additions
+    "$eq",
+    "$ne",
+    "$lt",
+    "$le",
+    "$gt",
+    "$ge", // comparisons
+    "$and",
+    "$or",
+    "$xor",
+    "$xnor",
+    "$not", // logic, bit by bit
+    "$logic_and",
+    "$logic_or",
+    "$logic_not", // logic of words
+    "$reduce_and",
+    "$reduce_or",
+    "$reduce_xor",
+    "$reduce_xnor",
+    "$reduce_bool",
+    "$shl",
+    "$shr",
+    "$sshl",
+    "$sshr",
+    "$shift",
+    "$shiftx", // shifts
+    "$mux",
+    "$pmux", // choices
+    "$dff",
+    "$dffe",
+    "$sdff",
+    "$sdffe",
+    "$sdffce", // registers
+    "$mem_v2",
+    "$memrd",
+    "$memrd_v2",
+    "$memwr_v2", // memories
 ];
 
 /// Cells of iCE40 besides its registers: look-up tables, carries, block RAM.

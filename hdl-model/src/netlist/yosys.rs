@@ -177,9 +177,9 @@ pub fn elaborated(
 ) -> Result<Cells, String> {
     let scratch = Scratch::new()?;
     let script = read(files, top, parameters)
-        + &format!("hierarchy -check -top {top}\nproc\ntee -q -o cells.json stat -json\n");
+        + &format!("hierarchy -check -top {top}\nproc\nwrite_json netlist.json\n");
     run(&script, &scratch)?;
-    cells(&scratch.json("cells.json")?)
+    cells(&scratch.json("netlist.json")?)
 }
 
 /// The cells of a module on a device.
@@ -194,37 +194,31 @@ pub fn mapped(
 ) -> Result<Cells, String> {
     let scratch = Scratch::new()?;
     let script = read(files, top, parameters)
-        + &format!("{} -top {top}\ntee -q -o cells.json stat -json\n", target.synthesis());
+        + &format!("{} -top {top}\nwrite_json netlist.json\n", target.synthesis());
     run(&script, &scratch)?;
-    cells(&scratch.json("cells.json")?)
+    cells(&scratch.json("netlist.json")?)
 }
 
-/// Reads what `stat -json` writes. Cells that are modules of the netlist are none of its own.
+/// Counts the cells of a netlist that `write_json` wrote. Each module counts once, however often the
+/// netlist has it; its instances are no cells of their own.
 ///
 /// # Errors
 /// If it is something else.
-pub fn cells(statistics: &Value) -> Result<Cells, String> {
-    let other = || "yosys: the statistics have no cells".to_owned();
-    let modules = statistics["modules"].as_object().ok_or_else(other)?;
-    let bare = |name: &str| name.trim_start_matches('\\').to_owned();
-    let all: BTreeSet<String> = modules.keys().map(|name| bare(name)).collect();
-    let mut cells = Cells {
-        count: BTreeMap::new(),
-        modules: modules.keys().map(|name| module_name(name)).collect(),
-    };
-    let total = statistics["design"]["num_cells_by_type"].as_object().ok_or_else(other)?;
-    for (kind, number) in total {
-        if !all.contains(&bare(kind)) {
-            cells.count.insert(bare(kind), number.as_u64().ok_or_else(other)?);
+pub fn cells(netlist: &Value) -> Result<Cells, String> {
+    let other = || "yosys: the netlist has no modules".to_owned();
+    let modules = netlist["modules"].as_object().ok_or_else(other)?;
+    let is_primitive = |module: &Value| !module["attributes"]["blackbox"].is_null();
+    let mut cells = Cells::default();
+    for (name, module) in modules.iter().filter(|(_, module)| !is_primitive(module)) {
+        // What its parameters were, the name says in its own way.
+        let plain = module["attributes"]["hdlname"].as_str().unwrap_or(name);
+        cells.modules.insert(plain.trim_start_matches('\\').to_owned());
+        for cell in module["cells"].as_object().into_iter().flat_map(|cells| cells.values()) {
+            let kind = cell["type"].as_str().ok_or_else(other)?;
+            if modules.get(kind).is_none_or(is_primitive) {
+                *cells.count.entry(kind.to_owned()).or_default() += 1;
+            }
         }
     }
     Ok(cells)
-}
-
-/// The module that `$paramod$1f68…\queue` or `$paramod\queue\WIDTH=…` was made of.
-fn module_name(derived: &str) -> String {
-    let mut parts = derived.split('\\').filter(|part| !part.is_empty());
-    let first = parts.next().unwrap_or_default();
-    let name = if first.starts_with("$paramod") { parts.next() } else { Some(first) };
-    name.unwrap_or_default().to_owned()
 }

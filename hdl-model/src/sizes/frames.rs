@@ -1,8 +1,8 @@
 //! Cycles of the built-in scenes, by the recurrence that the co-simulation found equal to the RTL.
 
+use terraline::engine::FixedWorld;
 use terraline::plan::Plan;
 use terraline::scene;
-use terraline::engine::FixedWorld;
 use terraline::study::cost::Measure;
 use terraline::study::error::Sample;
 
@@ -38,7 +38,7 @@ fn frame(name: &str, columns: u32, lines: u32) -> Result<FrameRow, String> {
     let cost = world.run(measure).map_err(|error| refused(&error))?;
     Ok(FrameRow {
         scene: name.into(),
-        words: world.name().into(),
+        words: plan.words().name.into(),
         columns,
         lines,
         cycles: cost.cycles,

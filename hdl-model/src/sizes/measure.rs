@@ -28,12 +28,13 @@ pub fn measure(job: &Job, limit: Duration) -> Result<Row, String> {
     let synthesis = target.synthesis();
     let script = yosys::read(&yosys::sources()?, design.top, &parameters)
         + &format!(
-            "{synthesis} -top {top}\ntee -q -o cells.json stat -json\nwrite_json unit.json\n\
+            "{synthesis} -top {}\nrename -top mapped\nwrite_json unit.json\n\
              write_rtlil unit.il\n",
-            top = design.top
+            design.top
         );
     yosys::run(&script, &scratch)?;
-    let cells = yosys::cells(&scratch.json("cells.json")?)?;
+    let netlist = scratch.json("unit.json")?;
+    let cells = yosys::cells(&netlist)?;
     let foreign = foreign_mapped(&cells, target);
     if !foreign.is_empty() {
         return Err(format!("{} on {}: cells of {foreign:?}", design.name, target.name()));
@@ -63,12 +64,12 @@ pub fn measure(job: &Job, limit: Duration) -> Result<Row, String> {
         row.remark = "does not fit".into();
         return Ok(row);
     }
-    let text = shell::around(design.top, &scratch.json("unit.json")?)?;
+    let text = shell::around("mapped", &netlist)?;
     std::fs::write(scratch.file("shell.v"), text).map_err(|error| error.to_string())?;
     // The unit's cells stay as they are; only the shell's are mapped.
     let script = format!(
-        "read_rtlil unit.il\nread_verilog shell.v\nhierarchy -top shell\n\
-         {synthesis} -top shell -run flatten:json\nopt_clean\nwrite_json shell.json\n"
+        "read_rtlil unit.il\nread_verilog shell.v\nhierarchy -top shell\nproc\nflatten\n\
+         {synthesis} -top shell -run coarse:json\nopt_clean\nwrite_json shell.json\n"
     );
     yosys::run(&script, &scratch)?;
     match route::route(target, &scratch, limit)? {

@@ -111,7 +111,6 @@ fn file(name: &str) -> PathBuf {
 /// # Errors
 /// If a tool is missing or refuses, or there is nothing of that name.
 pub fn run(only: Option<&str>, limit: Duration) -> Result<(), String> {
-    let mut sizes = load()?;
     let chosen = |name: &str| only.is_none_or(|only| only == name);
     let known = DESIGNS.iter().map(|design| design.name).chain([FRAMES]);
     if !known.clone().any(&chosen) {
@@ -122,11 +121,14 @@ pub fn run(only: Option<&str>, limit: Duration) -> Result<(), String> {
     for job in jobs.iter().filter(|job| chosen(job.design.name)) {
         let row = measure::measure(job, limit)?;
         println!("{}", tables::line(&row));
+        // Read again: other runs may have written theirs meanwhile.
+        let mut sizes = load()?;
         let same = |old: &Row| old.design == row.design && old.target == row.target;
         sizes.rows.retain(|old| !same(old));
         sizes.rows.push(row);
         let place = |row: &Row| {
-            let is_its = |job: &Job| job.design.name == row.design && job.target.name() == row.target;
+            let is_its =
+                |job: &Job| job.design.name == row.design && job.target.name() == row.target;
             jobs.iter().position(is_its)
         };
         sizes.rows.retain(|row| place(row).is_some());
@@ -134,8 +136,8 @@ pub fn run(only: Option<&str>, limit: Duration) -> Result<(), String> {
         store(&sizes)?;
     }
     if chosen(FRAMES) {
-        sizes.frames = frames::all()?;
-        store(&sizes)?;
+        let frames = frames::all()?;
+        store(&Sizes { frames, ..load()? })?;
     }
     Ok(())
 }

@@ -17,7 +17,9 @@ pub mod machine;
 mod memory;
 #[cfg(rtl)]
 mod model;
+pub mod netlist;
 pub mod package;
+pub mod sizes;
 #[cfg(rtl)]
 mod waves;
 
@@ -34,10 +36,18 @@ pub fn missing() -> Option<&'static str> {
 /// # Panics
 /// If `REQUIRE_RTL=1`.
 pub fn skipped() -> bool {
-    let Some(why) = missing() else { return false };
+    skipped_without(missing().map(str::to_owned))
+}
+
+/// For tests that need a tool: whether to skip them because it is missing, said loudly.
+///
+/// # Panics
+/// If it is missing with `REQUIRE_RTL=1`.
+pub fn skipped_without(missing: Option<String>) -> bool {
+    let Some(why) = missing else { return false };
     let required = std::env::var("REQUIRE_RTL").is_ok_and(|value| value == "1");
     assert!(!required, "REQUIRE_RTL=1, but {why}");
     // Past the test harness, which keeps what passing tests print to itself.
-    let _ = writeln!(std::io::stderr(), "SKIPPED, the RTL is not tested: {why}");
+    let _ = writeln!(std::io::stderr(), "SKIPPED, not tested: {why}");
     true
 }

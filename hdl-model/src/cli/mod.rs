@@ -2,14 +2,16 @@
 
 #[cfg(rtl)]
 mod cosim;
+mod multipliers;
 
 use std::path::Path;
 use std::process::ExitCode;
+use std::time::Duration;
 
 use clap::{Parser, Subcommand};
 use terraline::cli::{Stop, report};
 
-use crate::package;
+use crate::{package, sizes};
 
 /// The processor in SystemVerilog, and its comparison with the emulator.
 #[derive(Debug, Parser)]
@@ -32,6 +34,22 @@ enum Command {
     },
     /// Write the generated files of rtl/ anew.
     Generate,
+    /// Check that no netlist multiplies or divides, other than by additions; needs Yosys.
+    Multipliers {
+        /// Map every design to both devices as well, and look for DSP blocks; takes many minutes.
+        #[arg(long)]
+        map: bool,
+    },
+    /// Measure size and clock on two devices, and write them into hdl-model/README.md; needs Yosys
+    /// and nextpnr.
+    Sizes {
+        /// Measure but the design of this name, or `frames`; the others stay as they are.
+        #[arg(long, value_name = "NAME")]
+        only: Option<String>,
+        /// Time limit of each place and route, seconds.
+        #[arg(long, value_name = "SECONDS", default_value_t = 900)]
+        limit: u64,
+    },
 }
 
 /// The generated files of `rtl/`, with their texts.
@@ -50,6 +68,10 @@ pub fn main() -> ExitCode {
             crate::missing().unwrap_or("no models of the RTL")
         ))),
         Command::Generate => generate(),
+        Command::Multipliers { map } => multipliers::run(map),
+        Command::Sizes { only, limit } => {
+            sizes::run(only.as_deref(), Duration::from_secs(limit)).map_err(Stop::BadInput)
+        }
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -117,7 +117,7 @@ fn the_smallest_difference_is_found() {
     assert!(count >= 24 * 18 && first.contains("line 0, column 0, projector: view_x"), "{first}");
     let (count, first) = differences(|setup, _| {
         let Back::Terrain(units) = &mut setup.back else { panic!("a height map") };
-        units.stepper.eye_y = Lane::of_int(units.stepper.eye_y.int() + (1 << 22));
+        units.stepper.top = Lane::of_int(units.stepper.top.int() + (1 << 10));
     });
     assert!(count > 0 && first.contains("stepper"), "{first}");
     let (count, first) = differences(|setup, _| {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use super::{Row, Sizes, measure, route};
+use super::{Row, Sizes, jobs, measure, route};
 use crate::netlist::Target;
 
 const BEGIN: &str = "<!-- sizes: made by `cargo run --release -p terraline-hdl -- sizes` -->";
@@ -73,6 +73,15 @@ fn device(sizes: &Sizes, target: Target) -> String {
             "| {} | {} | {} | {} | {} | {cells} | {clock} |",
             row.design, row.parameters, row.luts, row.flip_flops, row.block_ram,
         );
+    }
+    let missing: Vec<&str> = jobs()
+        .iter()
+        .filter(|job| job.target == target)
+        .map(|job| job.design.name)
+        .filter(|name| !rows.iter().any(|row| row.design == *name))
+        .collect();
+    if !missing.is_empty() {
+        let _ = writeln!(out, "\nNot measured: {}.", missing.join("; "));
     }
     out.push_str("\nLongest paths, from register to register:\n\n");
     for row in rows.iter().filter(|row| row.clock_mhz.is_some()) {

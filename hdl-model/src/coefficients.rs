@@ -124,11 +124,6 @@ impl Values {
         })
     }
 
-    /// The value of one, if it was set.
-    pub fn get(&self, name: &str) -> Option<i64> {
-        self.0.iter().find(|(known, _)| *known == name).map(|&(_, value)| value)
-    }
-
     fn set(&mut self, name: &'static str, value: impl Into<i64>) {
         debug_assert!(COEFFICIENTS.iter().any(|coefficient| coefficient.name == name), "{name}");
         self.0.push((name, value.into()));

@@ -53,11 +53,6 @@ impl Model {
         find(&self.ports, name)
     }
 
-    /// Whether the module has a port of this name.
-    pub fn has_port(&self, name: &str) -> bool {
-        self.ports.iter().any(|port| port.name == name)
-    }
-
     /// Drives an input of up to 64 bits with the low bits of a word.
     ///
     /// # Panics

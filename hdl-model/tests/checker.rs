@@ -3,8 +3,10 @@
 #![cfg(rtl)]
 
 mod elastic;
+mod random;
 
-use elastic::{Pace, Random};
+use elastic::Pace;
+use random::Random;
 use terraline::plan::Plan;
 use terraline::processor::Processor;
 use terraline::scene::{WordSize, load};

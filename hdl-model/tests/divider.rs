@@ -1,9 +1,11 @@
 //! The divider against the emulator's unit: outcomes, quotients and cycles.
 #![cfg(rtl)]
 
+mod random;
 mod support;
 
-use support::{Bench, Random, Timing, assert_timing, neighbours};
+use random::Random;
+use support::{Bench, Timing, assert_timing, neighbours};
 use terraline::unit::Line;
 use terraline::unit::divider::{Divider, Method};
 use terraline::unit::line::Entry;
@@ -54,7 +56,7 @@ const OUTPUTS: [&str; 3] = ["out_entry", "out_ground_x", "out_ground_z"];
 /// Numerators and a denominator: of any size, or with a ratio near the ends of the range.
 fn item<S: Size>(random: &mut Random, shift: i32, bits: u32) -> Vec<i64> {
     let denominator = match random.below(6) {
-        0 => 1 + random.below(4) as i64,
+        0 => 1 + random.below(4),
         _ => random.word(S::WIDTH),
     };
     let numerator = |random: &mut Random| {
@@ -76,10 +78,10 @@ fn compare<S: Size>(serial: bool, rounds: u64, count: usize) {
     let name = if serial { "divider_serial_" } else { "divider_" }.to_owned() + S::NAME;
     let mut bench = Bench::new(&name, &INPUTS, &OUTPUTS);
     for round in 0..rounds {
-        let mut random = Random::new(round << 32);
-        let range = random.below(u64::from(S::STAGES - S::POINT)) as u32;
+        let mut random = Random(round << 32);
+        let range = random.below(i64::from(S::STAGES - S::POINT)) as u32;
         let bits = range + S::POINT + 1;
-        let shift = random.below(u64::from(S::WIDTH + bits + 50)) as i32 - 50;
+        let shift = random.below(i64::from(S::WIDTH + bits + 50)) as i32 - 50;
         let (eye_x, eye_z) = (random.word(S::WIDTH), random.word(S::WIDTH));
         let ratio = S::ratio(shift - S::POINT as i32, range);
         let unit: Divider<S> = Divider {

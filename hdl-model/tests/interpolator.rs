@@ -137,7 +137,7 @@ impl<W: Bits> Bench<W> {
             }
             // Only the bank of odd nodes of a single one, which is empty.
             assert!((columns == 1 && column == 1) || (rows == 1 && row == 1), "{column}, {row}");
-            (self.random.word(), true)
+            (self.random.bits() as i64, true)
         })
     }
 
@@ -187,7 +187,12 @@ impl<W: Bits> Bench<W> {
             self.rtl.set(request_valid, request.is_some().into());
             let (x, z, tag, first) = match request {
                 Some((token, cycle)) => (token.x, token.z, token.tag, cycle == 0),
-                None => (self.random.word(), self.random.word(), 0, self.random.below(2) == 0),
+                None => (
+                    self.random.bits() as i64,
+                    self.random.bits() as i64,
+                    0,
+                    self.random.below(2) == 0,
+                ),
             };
             self.rtl.set(request_first, first.into());
             self.rtl.set_signed(request_x, x);
@@ -195,7 +200,8 @@ impl<W: Bits> Bench<W> {
             self.rtl.set(request_tag, tag);
             let arrived: Option<[(i64, bool); 4]> = memory.pop_front().expect("as long as M");
             self.rtl.set(data_valid, arrived.is_some().into());
-            let words = arrived.unwrap_or_else(|| [0; 4].map(|_| (self.random.word(), true)));
+            let words =
+                arrived.unwrap_or_else(|| [0; 4].map(|_| (self.random.bits() as i64, true)));
             set_words(&mut self.rtl, data, W::WIDTH, words.map(|(height, _)| height));
             let voids = words.iter().enumerate().map(|(bank, &(_, void))| u64::from(void) << bank);
             self.rtl.set(void, voids.sum());

@@ -1,9 +1,9 @@
 //! The projector against the emulator's unit: accumulators that wrap, on rasters of any shape.
 #![cfg(rtl)]
 
-mod support;
+mod random;
 
-use support::Random;
+use random::Random;
 use terraline::clock::Sink;
 use terraline::unit::Line;
 use terraline::unit::projector::{Linear, Projector};
@@ -30,7 +30,7 @@ fn compare<W: World<View: Lane>>(
     let (mut drawn, mut frame) = (0, 0);
     while drawn < pixels {
         frame += 1;
-        let mut random = Random::new(frame << 20);
+        let mut random = Random(frame << 20);
         let (columns, lines) = (1 + random.below(400) as u32, 1 + random.below(40) as u32);
         let mut linear = |name: &str| {
             let mut coefficient = |part: &str| {

@@ -3,10 +3,12 @@
 #![cfg(rtl)]
 
 mod elastic;
+mod random;
 
 use std::sync::Arc;
 
-use elastic::{Pace, Random};
+use elastic::Pace;
+use random::Random;
 use terraline::frame::Hit;
 use terraline::plan::Plan;
 use terraline::processor::Processor;

@@ -141,36 +141,3 @@ pub fn neighbours(seed: u64) -> [(Sink, Sink); 4] {
         (busy(3, 150), busy(4, 170)),
     ]
 }
-
-/// Seeded words for hostile registers.
-pub struct Random(u64);
-
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(1);
-        terraline::word::format::mix(0x7465_7272_616c_696e, self.0)
-    }
-
-    /// Below a bound.
-    pub fn below(&mut self, bound: u64) -> u64 {
-        self.next() % bound
-    }
-
-    /// A signed word of `width` bits: of any magnitude, often at the ends of the range or next to
-    /// zero.
-    pub fn word(&mut self, width: u32) -> i64 {
-        let ends = [0, 1, -1, 2, i64::MAX, i64::MIN, i64::MAX - 1, i64::MIN + 1];
-        let spare = 64 - width;
-        if self.below(8) == 0 {
-            let at = self.below(ends.len() as u64) as usize;
-            let word = ends[at];
-            return if word.unsigned_abs() > 2 { word >> spare } else { word };
-        }
-        let magnitude = spare + self.below(u64::from(width)) as u32;
-        self.next() as i64 >> magnitude
-    }
-}

@@ -68,8 +68,8 @@ const MODELS: &[Model] = &[
     model("terrain_narrow_3x3", "terraline", &["WIDE=0", "STRETCH=1", LATENCY, TABLE]),
     model("terrain_wide_3x3", "terraline", &["WIDE=1", "STRETCH=1", LATENCY, TABLE]),
     model("terrain_narrow_serial", "terraline", &["WIDE=0", "SERIAL=1", LATENCY, TABLE]),
-    model("product_5_3", "product", &["A=5", "B=3"]),
-    model("product_5_4", "product", &["A=5", "B=4", "SIGNED=0"]),
+    model("product_5_5", "product", &["A=5", "B=5"]),
+    model("product_5_6", "product", &["A=5", "B=6", "SIGNED=0"]),
     model("product_32_21", "product", &["A=32", "B=21", "SIGNED=0"]),
     model("product_32_23", "product", &["A=32", "B=23"]),
     model("product_64_25", "product", &["A=64", "B=25", "SIGNED=0"]),
@@ -186,7 +186,7 @@ fn build(include: &Path) {
         keep(&folder, &out.join(model.name), |making| make(model, &sources, include, making));
         folder
     };
-    // As many at a time as there are processors, the largest ones first.
+    // As many at a time as there are processors; the list ends with the largest ones, which begin.
     let next = AtomicUsize::new(0);
     let folders = Mutex::new(vec![PathBuf::new(); MODELS.len()]);
     thread::scope(|scope| {

@@ -14,7 +14,7 @@
 
 use crate::scene::{Machine, RatioForm};
 use crate::setup::table::{
-    DIVIDER_ENDS, LERP_LATENCY, RAY_END, RAY_START, SHADER_LATENCY, SLOPE_LATENCY,
+    DIVIDER_ENDS, KERNEL_LATENCY, LERP_LATENCY, RAY_END, RAY_START, SHADER_LATENCY, SLOPE_LATENCY,
 };
 use crate::setup::{Back, Setup};
 use crate::unit::Line;
@@ -75,7 +75,7 @@ impl Chain {
                 }
             }
         }
-        let answer = memory_latency + LERP_LATENCY + SLOPE_LATENCY;
+        let answer = memory_latency.max(KERNEL_LATENCY) + LERP_LATENCY + SLOPE_LATENCY;
         let (mut stepper, mut interpolator) = (None, None);
         let (mut reads, mut void_bits) = (1, false);
         match &setup.back {
@@ -103,7 +103,7 @@ impl Chain {
     /// through the interpolation in groups, halvings wait for each other. With holes, the bits of
     /// the two places between which a hit lies are read once more.
     pub fn stepper_work(&self, work: Work) -> u32 {
-        let answer = self.memory_latency + LERP_LATENCY;
+        let answer = self.memory_latency.max(KERNEL_LATENCY) + LERP_LATENCY;
         let rim = if self.void_bits { 2 * self.reads + answer } else { 0 };
         RAY_START
             + work.trials * (1 + self.memory_latency)

@@ -1,7 +1,7 @@
 // A step of the ray covers at most 2^-k cells per axis, and its largest component more than half of
 // that (equation 20), for every view vector and fineness k.
 //
-// `places` is computed as the stepper does it; stepper_formal.sv shows the same bound for the steps in
+// `right` is computed as the stepper does it; stepper_formal.sv shows the same bound for the steps in
 // the stepper's registers.
 module ray_step_formal #(
     parameter int W     = 32,  // bits of a word
@@ -16,8 +16,9 @@ module ray_step_formal #(
     output logic                cover_longest  // a step of 2^-k, rounded up
 );
   logic [W-1:0] magnitude_x, magnitude_y, magnitude_z;
-  logic signed [7:0] leading, places;
+  logic signed [7:0] leading, right;
   logic signed [W-1:0] step_x, step_y, step_z;
+  logic [2:0] forward, backward;
 
   assign magnitude_x = view_x < 0 ? -view_x : view_x;
   assign magnitude_y = view_y < 0 ? -view_y : view_y;
@@ -28,10 +29,10 @@ module ray_step_formal #(
       .word(magnitude_x | magnitude_y | magnitude_z),
       .place(leading)
   );
-  assign places = leading + 8'sd1 + $signed({5'b0, fineness}) - 8'(POINT);
-  ray_step #(.W(W)) ray_step_x (.view(view_x), .places(places), .step(step_x));
-  ray_step #(.W(W)) ray_step_y (.view(view_y), .places(places), .step(step_y));
-  ray_step #(.W(W)) ray_step_z (.view(view_z), .places(places), .step(step_z));
+  assign right = leading + $signed({5'b0, fineness}) - 8'(POINT);
+  ray_step #(.W(W), .POINT(POINT)) ray_step_x (.view(view_x), .right(right), .step(step_x), .forward(forward[0]), .backward(backward[0]));
+  ray_step #(.W(W), .POINT(POINT)) ray_step_y (.view(view_y), .right(right), .step(step_y), .forward(forward[1]), .backward(backward[1]));
+  ray_step #(.W(W), .POINT(POINT)) ray_step_z (.view(view_z), .right(right), .step(step_z), .forward(forward[2]), .backward(backward[2]));
 
   logic signed [W-1:0] most, half;
   assign most = W'(1) << (8'(POINT) - {5'b0, fineness});
@@ -41,13 +42,15 @@ module ray_step_formal #(
     assert (-most <= step_x && step_x <= most);
     assert (-most <= step_y && step_y <= most);
     assert (-most <= step_z && step_z <= most);
+    assert (forward == {step_z >= 0, step_y >= 0, step_x >= 0});
+    assert (backward == {step_z <= 0, step_y <= 0, step_x <= 0});
     if (leading >= 0) begin
       assert (step_x >= half || step_x <= -half || step_y >= half || step_y <= -half
           || step_z >= half || step_z <= -half);
     end
   end
 
-  assign cover_right = places > 8'sd1 && step_x == half && view_y[0];
-  assign cover_left = places < 0 && step_x != '0;
+  assign cover_right = right > 0 && step_x == half && view_y[0];
+  assign cover_left = right < -8'sd1 && step_x != '0;
   assign cover_longest = step_x == most && fineness == 3'd3;
 endmodule

@@ -34,7 +34,8 @@ module stepper_formal #(
     input logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_x,
     input logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_y,
     input logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_z,
-    input logic signed [                      7:0] places,
+    input logic        [(WIDE == 1 ? 64 : 32)-1:0] longest,
+    input logic signed [                      7:0] right,
     input logic signed [(WIDE == 1 ? 64 : 32)-1:0] step_x,
     input logic signed [(WIDE == 1 ? 64 : 32)-1:0] step_y,
     input logic signed [(WIDE == 1 ? 64 : 32)-1:0] step_z,
@@ -46,6 +47,7 @@ module stepper_formal #(
     input logic signed [(WIDE == 1 ? 64 : 32)-1:0] ahead_z,
     input logic        [                     25:0] remaining,
     input logic        [                     25:0] remaining_ahead,
+    input logic signed [                      7:0] ahead_leading,
     input logic        [                      4:0] level,
     input logic                                    none,
     input logic                                    clear,
@@ -60,7 +62,8 @@ module stepper_formal #(
   localparam int W = WIDE == 1 ? terraline_pkg::WIDE_WIDTH : terraline_pkg::NARROW_WIDTH;
   localparam int POINT = WIDE == 1 ? terraline_pkg::WIDE_POINT : terraline_pkg::NARROW_POINT;
   localparam int CELL = WIDE == 1 ? 26 : 12;
-  localparam logic [3:0] IDLE = 4'd0, START = 4'd1, TRIAL = 4'd2, BOUND = 4'd3, SAMPLE = 4'd4;
+  localparam logic [3:0] SCALE = 4'd1, STEP = 4'd2, TRIAL = 4'd4, BOUND = 4'd5,
+                         SAMPLE = 4'd6;
   localparam logic [25:0] ONE = 26'd1;
 
   logic jumps;  // a jump is tried
@@ -114,7 +117,7 @@ module stepper_formal #(
         if (first) assume (reset);
       end
 
-      // The step that is made is short, as ray_step_formal.sv shows it, if `places` is right.
+      // The step that is made is short, as ray_step_formal.sv shows it, if `right` is.
       logic [W-1:0] magnitude_x, magnitude_y, magnitude_z;
       logic signed [7:0] leading;
       assign magnitude_x = view_x < 0 ? -view_x : view_x;
@@ -125,6 +128,15 @@ module stepper_formal #(
       ) leading_view (
           .word(magnitude_x | magnitude_y | magnitude_z),
           .place(leading)
+      );
+
+      // Where the next jump is shorter than this one, the leading one of what remains says how long.
+      logic signed [7:0] left_leading;
+      leading_one #(
+          .W(26)
+      ) leading_left (
+          .word(remaining_ahead),
+          .place(left_leading)
       );
 
       // A group of samples starts when none is in work: in its first cycle nothing is answered.
@@ -165,10 +177,11 @@ module stepper_formal #(
       always_comb begin
         if (state == SAMPLE && answered) assume (tag_last == (done + 7'd1 == size));
         if (!first) begin
-          if (state == START) begin
-            assert (places == leading + 8'sd1 + $signed({5'b0, fineness}) - 8'(POINT));
+          if (state == SCALE) assert (longest == (magnitude_x | magnitude_y | magnitude_z));
+          if (state == STEP) begin
+            assert (right == leading + $signed({5'b0, fineness}) - 8'(POINT));
           end
-          if (state > START) assert (steps_short);
+          if (state > STEP) assert (steps_short);
           if (jumps) begin
             assert (jump_length <= {1'b0, remaining});
             assert (skipping && level <= pyramid_top);
@@ -183,6 +196,7 @@ module stepper_formal #(
             assert (ahead_right);
             assert ({1'b0, remaining_ahead} + jump_length == {1'b0, remaining});
             assert (none == (none_x || none_z));
+            if ({1'b0, remaining_ahead} < jump_length) assert (ahead_leading == left_leading);
           end
         end
       end

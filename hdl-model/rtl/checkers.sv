@@ -5,22 +5,23 @@
 // multiplied with the contrast, which the denominator gives. Sky and far have constant colours. It
 // stands where height maps have the shader, with the shader's handshake and timing.
 //
-// Cycles: one item per cycle. An item taken in cycle t is at the output in cycle t + 12 (L = 12:
-// eleven stages and the put into the queue); at most D = 13 items are held. The stages, by the
+// Cycles: one item per cycle. An item taken in cycle t is at the output in cycle t + 13 (L = 13:
+// twelve stages and the put into the queue); at most D = 14 items are held. The stages, by the
 // register that ends them:
 //
 // 1  parity; denominator compared with that of full contrast
 // 2  denominator shifted by the contrast's exponent
 // 3  rounded
-// 4  denominator x gain: sums of four
+// 4  denominator x gain: sums of rows
 // 5  their sum, rounded
 // 6  minus one
 // 7  limited to 0 .. 1
-// 8  swing x contrast: sums of four
+// 8  swing x contrast: sums of rows
 // 9  their sum, rounded
 // 10 mean plus or minus that
 // 11 rounded to bytes
-// 12 constant colours; into the queue
+// 12 constant colours
+// 13 into the queue
 //
 // Ranges, with F = POINT; every multiplier is as wide as these ask for:
 // - denominator of an item that is met: 0 or more. Shifted by the exponent below `full_from`: in
@@ -70,7 +71,7 @@ module checkers #(
 );
   localparam int F = WIDE != 0 ? terraline_pkg::WIDE_POINT : terraline_pkg::NARROW_POINT;
   localparam int VIEW = WIDE != 0 ? terraline_pkg::WIDE_VIEW_POINT : terraline_pkg::NARROW_VIEW_POINT;
-  localparam int STAGES = 11;
+  localparam int STAGES = 12;
   localparam logic [F-1:0] HALF = F'(1) << (F - 1);
   localparam logic [F:0] ONE = (F + 1)'(1) << F;
 
@@ -112,6 +113,7 @@ module checkers #(
   localparam int LEFT = F + 1;  // a shift to the left by more leaves no bit of one in range
 
   logic signed [8:0] places;
+  logic [7:0] contrast_places;  // of coefficients alone, in a register
   logic [F+3:0] shifted, shifted_2;
   logic signed [F+2:0] scaled_3;
 
@@ -125,11 +127,12 @@ module checkers #(
       .PLACES(8)
   ) shift (
       .value (denominator_1),
-      .places(places < 0 ? 8'd0 : places[7:0]),
+      .places(contrast_places),
       .out   (shifted)
   );
 
   always_ff @(posedge clock) begin
+    contrast_places <= places < 0 ? 8'd0 : places[7:0];
     shifted_2 <= shifted;
     scaled_3  <= shifted_2[F+3:1] + (F + 3)'(shifted_2[0]);
   end
@@ -198,17 +201,17 @@ module checkers #(
     end
   end
 
-  // 12: constant colours, and the queue.
-  logic [23:0] pixel;
+  // 12: constant colours; 13: the queue.
+  logic [23:0] pixel_12;
   logic [ 1:0] hit_11;
 
-  assign hit_11 = along[STAGES][TAG+:2];
+  assign hit_11 = along[11][TAG+:2];
 
-  always_comb begin
+  always_ff @(posedge clock) begin
     case (hit_11)
-      2'd0: pixel = sky_color;
-      2'd1: pixel = color_11;
-      default: pixel = far_color;
+      2'd0: pixel_12 <= sky_color;
+      2'd1: pixel_12 <= color_11;
+      default: pixel_12 <= far_color;
     endcase
   end
 
@@ -219,7 +222,7 @@ module checkers #(
       .clock(clock),
       .reset(reset),
       .put(valid[STAGES]),
-      .in_item({pixel, along[STAGES]}),
+      .in_item({pixel_12, along[STAGES]}),
       .out_valid(out_valid),
       .out_ready(out_ready),
       .out_item({out_color, out_hit, out_tag})

@@ -50,6 +50,12 @@ module divider #(
   logic [1:0] done_entry;
   logic signed [W-1:0] quotient_x, quotient_z;
 
+  // From a coefficient alone, in a register.
+  logic [5:0] depth;
+  always_ff @(posedge clock) begin
+    depth <= SERIAL == 1 ? 6'(DEPTH) : ratio_bits + 6'(terraline_pkg::DIVIDER_ENDS + 1);
+  end
+
   assign enter = in_valid && in_ready;
   assign leave = out_valid && out_ready;
 
@@ -58,47 +64,53 @@ module divider #(
   ) credits (
       .clock(clock),
       .reset(reset),
-      .depth(SERIAL == 1 ? 6'(DEPTH) : ratio_bits + 6'(terraline_pkg::DIVIDER_ENDS + 1)),
+      .depth(depth),
       .enter(enter),
       .leave(leave),
       .room(room)
   );
 
-  // First stage: the numerators are aligned to STAGES quotient bits, whatever the number in use, and
-  // biased.
+  // First stage: the numerators are aligned to STAGES quotient bits, whatever the number in use. The
+  // places depend on coefficients alone and stand in registers.
   logic signed [8:0] shift;
+  logic to_right;
+  logic [8:0] places;
   logic signed [ALIGNED-1:0] aligned_x, aligned_z;
-  logic signed [ALIGNED:0] biased_x, biased_z, bias;
-  logic signed [W-1:0] biased_denominator;
-
-  assign shift = 9'(ratio_shift) + 9'(STAGES) - $signed({3'b0, ratio_bits});
-  assign aligned_x = shift[8] ? ALIGNED'(in_view_x) >>> (-shift) : ALIGNED'(in_view_x) <<< shift;
-  assign aligned_z = shift[8] ? ALIGNED'(in_view_z) >>> (-shift) : ALIGNED'(in_view_z) <<< shift;
-  assign bias = (ALIGNED + 1)'(in_denominator) <<< (STAGES - 1);
-
+  logic signed [W-1:0] denominator;
   logic checking;
 
+  assign shift = 9'(ratio_shift) + 9'(STAGES) - $signed({3'b0, ratio_bits});
+
   always_ff @(posedge clock) begin
+    to_right <= shift < 0;
+    places <= shift < 0 ? -shift : shift;
     checking <= enter && !reset;
     if (enter) begin
-      biased_x <= (ALIGNED + 1)'(aligned_x) + bias;
-      biased_z <= (ALIGNED + 1)'(aligned_z) + bias;
-      biased_denominator <= in_denominator;
+      aligned_x <= to_right ? ALIGNED'(in_view_x) >>> places : ALIGNED'(in_view_x) <<< places;
+      aligned_z <= to_right ? ALIGNED'(in_view_z) >>> places : ALIGNED'(in_view_z) <<< places;
+      denominator <= in_denominator;
     end
   end
 
-  // Second stage: the range check. In range are numerators in [0, denominator * 2^STAGES).
-  localparam int HIGH = ALIGNED + 1 - STAGES;
-  logic signed [HIGH-1:0] high_x, high_z, high_denominator;
-  logic sky, far;
+  // Second stage: bias and range check. In range are numerators in [-bias, bias), of which the biased
+  // ones lie in [0, denominator * 2^STAGES); numerators that need more than LOW bits are not.
+  localparam int LOW = W + STAGES - 1;
+  logic signed [LOW:0] bias, biased_x, biased_z, beyond_x, beyond_z;
+  logic signed [ALIGNED-LOW:0] above_x, above_z;
+  logic sky, far_x, far_z;
   logic [1:0] entry;
 
-  assign high_x = biased_x[ALIGNED:STAGES];
-  assign high_z = biased_z[ALIGNED:STAGES];
-  assign high_denominator = HIGH'(biased_denominator);
-  assign sky = biased_denominator <= 0;
-  assign far = high_x < 0 || high_x >= high_denominator || high_z < 0 || high_z >= high_denominator;
-  assign entry = sky ? 2'(SKY) : far ? 2'(FAR) : 2'(MET);
+  assign bias = (LOW + 1)'(denominator) <<< (STAGES - 1);
+  assign biased_x = $signed(aligned_x[LOW:0]) + bias;
+  assign biased_z = $signed(aligned_z[LOW:0]) + bias;
+  assign beyond_x = $signed(aligned_x[LOW:0]) - bias;
+  assign beyond_z = $signed(aligned_z[LOW:0]) - bias;
+  assign above_x = aligned_x[ALIGNED-1:LOW-1];
+  assign above_z = aligned_z[ALIGNED-1:LOW-1];
+  assign sky = denominator <= 0;
+  assign far_x = (above_x != '0 && above_x != '1) || biased_x < 0 || beyond_x >= 0;
+  assign far_z = (above_z != '0 && above_z != '1) || biased_z < 0 || beyond_z >= 0;
+  assign entry = sky ? 2'(SKY) : far_x || far_z ? 2'(FAR) : 2'(MET);
 
   if (SERIAL == 0) begin : pipelined
     divider_array #(
@@ -111,9 +123,9 @@ module divider #(
         .bits(ratio_bits),
         .in_valid(checking),
         .in_entry(entry),
-        .in_denominator(biased_denominator),
-        .in_remainder_x(high_x[W:0]),
-        .in_remainder_z(high_z[W:0]),
+        .in_denominator(denominator),
+        .in_remainder_x({1'b0, biased_x[LOW:STAGES]}),
+        .in_remainder_z({1'b0, biased_z[LOW:STAGES]}),
         .in_digits_x(biased_x[STAGES-1:0]),
         .in_digits_z(biased_z[STAGES-1:0]),
         .out_valid(done),
@@ -133,9 +145,9 @@ module divider #(
         .bits(ratio_bits),
         .in_valid(checking),
         .in_entry(entry),
-        .in_denominator(biased_denominator),
-        .in_remainder_x(high_x[W:0]),
-        .in_remainder_z(high_z[W:0]),
+        .in_denominator(denominator),
+        .in_remainder_x({1'b0, biased_x[LOW:STAGES]}),
+        .in_remainder_z({1'b0, biased_z[LOW:STAGES]}),
         .in_digits_x(biased_x[STAGES-1:0]),
         .in_digits_z(biased_z[STAGES-1:0]),
         .busy(busy),

@@ -3,8 +3,8 @@
 //
 // A token is a place. It is read in R cycles, 1 for 2×2 nodes and 4 for 3×3, whose requester holds
 // place and tag; the place reaches the memory in the same cycle. With the last read in cycle c, the
-// answer comes in cycle c + M + LERP_LATENCY, with slopes two cycles later. Tokens may follow each
-// other without a gap and never stall. One that is left before its last read, by dropping
+// answer comes in cycle c + max(M, KERNEL_LATENCY) + LERP_LATENCY, with slopes two cycles later.
+// Tokens may follow each other without a gap and never stall. One that is left before its last read, by dropping
 // request_valid or by request_first of another, has no answer. Reset forgets reads under way; the
 // memory must forget them too.
 //
@@ -129,7 +129,7 @@ module interpolator #(
       .odd(odd)
   );
 
-  // Cycle c + 1: weights. They wait for the nodes, at M = 1 not at all.
+  // Cycles c + 1 and c + 2: weights. They wait for the nodes, or with M = 1 the nodes for them.
   logic [POINT:0] kernel_x, kernel_z, weight_x, weight_z;
   logic [POINT+2:0] kernel_slope_x, kernel_slope_z, fall_x, fall_z;
 
@@ -155,20 +155,23 @@ module interpolator #(
   );
 
   localparam int ASIDE = 7 + TAG;
-  logic asked;
-  logic [ASIDE-1:0] aside;  // what goes along with the weights
+  logic [2:1] asked;
+  logic [ASIDE-1:0] aside_1, aside;  // what goes along with the weights
   always_ff @(posedge clock) begin
-    asked <= request_valid && !reset;
-    aside <= {on_map, odd, phase, request_tag};
+    asked   <= reset ? 2'b00 : {asked[1], request_valid};
+    aside_1 <= {on_map, odd, phase, request_tag};
+    aside   <= aside_1;
   end
 
   generate
     if (STRETCH != 0) begin : gen_stretch_weight
       // The node before comes in phase 0, the one after, whose slope is mirrored, in phase 1.
-      assign weight_x = kernel_x;
-      assign weight_z = kernel_z;
-      assign fall_x   = aside[TAG] ? kernel_slope_x : -kernel_slope_x;
-      assign fall_z   = aside[TAG] ? kernel_slope_z : -kernel_slope_z;
+      always_ff @(posedge clock) begin
+        weight_x <= kernel_x;
+        weight_z <= kernel_z;
+        fall_x   <= aside_1[TAG] ? kernel_slope_x : -kernel_slope_x;
+        fall_z   <= aside_1[TAG] ? kernel_slope_z : -kernel_slope_z;
+      end
     end else begin : gen_blend
       logic [POINT-1:0] hat_x, hat_z;
       always_ff @(posedge clock) begin
@@ -178,6 +181,7 @@ module interpolator #(
       blend #(
           .POINT(POINT)
       ) blend_x (
+          .clock(clock),
           .form(form),
           .shift(blend_shift),
           .fraction(hat_x),
@@ -189,6 +193,7 @@ module interpolator #(
       blend #(
           .POINT(POINT)
       ) blend_z (
+          .clock(clock),
           .form(form),
           .shift(blend_shift),
           .fraction(hat_z),
@@ -202,7 +207,7 @@ module interpolator #(
 
   localparam int ITEM = 2 * (POINT + 1) + 2 * (POINT + 3) + ASIDE;
   logic [ITEM-1:0] fresh, waiting, item;
-  logic is_waiting;
+  logic is_waiting, take;
   assign fresh = {weight_x, weight_z, fall_x, fall_z, aside};
   assign item  = is_waiting ? waiting : fresh;
   queue #(
@@ -211,14 +216,29 @@ module interpolator #(
   ) weights (
       .clock(clock),
       .reset(reset),
-      .put(asked && (is_waiting || !data_valid)),
+      .put(asked[2] && (is_waiting || !take)),
       .in_item(fresh),
       .out_valid(is_waiting),
-      .out_ready(data_valid),
+      .out_ready(take),
       .out_item(waiting)
   );
 
-  // Cycle c + M: nodes out of their banks, and what is known of them.
+  // Nodes that come before their weights, with M = 1, are held for a cycle.
+  logic is_held;
+  logic [4*W-1:0] held, nodes;
+  logic [3:0] held_void, nodes_void;
+  assign take       = (is_held || data_valid) && (is_waiting || asked[2]);
+  assign nodes      = is_held ? held : data;
+  assign nodes_void = is_held ? held_void : data_void;
+  always_ff @(posedge clock) begin
+    is_held <= !reset && (take ? is_held && data_valid : is_held || data_valid);
+    if (data_valid) begin
+      held      <= data;
+      held_void <= data_void;
+    end
+  end
+
+  // Cycle c + N, N = max(M, 2): nodes out of their banks, and what is known of them.
   logic [POINT:0] item_weight_x, item_weight_z;
   logic [POINT+2:0] item_fall_x, item_fall_z;
   logic item_on_map;
@@ -235,18 +255,18 @@ module interpolator #(
   assign bank_2 = {item_odd[3], item_odd[0]};  // west and south
   assign bank_3 = {item_odd[2], item_odd[1]};  // east and north
   assign bank_4 = {item_odd[3], item_odd[1]};  // east and south
-  assign h1 = data[{bank_1, {$clog2(W){1'b0}}}+:W];
-  assign h2 = data[{bank_2, {$clog2(W){1'b0}}}+:W];
-  assign h3 = data[{bank_3, {$clog2(W){1'b0}}}+:W];
-  assign h4 = data[{bank_4, {$clog2(W){1'b0}}}+:W];
-  assign any_void = data_void[bank_1] || data_void[bank_2] || data_void[bank_3]
-      || data_void[bank_4];
+  assign h1 = nodes[{bank_1, {$clog2(W){1'b0}}}+:W];
+  assign h2 = nodes[{bank_2, {$clog2(W){1'b0}}}+:W];
+  assign h3 = nodes[{bank_3, {$clog2(W){1'b0}}}+:W];
+  assign h4 = nodes[{bank_4, {$clog2(W){1'b0}}}+:W];
+  assign any_void = nodes_void[bank_1] || nodes_void[bank_2] || nodes_void[bank_3]
+      || nodes_void[bank_4];
 
   generate
     if (STRETCH != 0) begin : gen_patch_3x3
       logic void_before;
       always_ff @(posedge clock) begin
-        if (data_valid) void_before <= any_void || (item_phase != 2'd0 && void_before);
+        if (take) void_before <= any_void || (item_phase != 2'd0 && void_before);
       end
       assign exists = item_on_map && !(void_bits && (any_void || void_before));
     end else begin : gen_patch_2x2
@@ -254,7 +274,7 @@ module interpolator #(
     end
   endgenerate
 
-  // Cycles c + M + 1 to c + M + 5.
+  // Cycles c + N + 1 to c + N + 5.
   logic [W-1:0] surface, slope_x, slope_z;
   generate
     if (STRETCH != 0) begin : gen_3x3
@@ -263,7 +283,7 @@ module interpolator #(
           .SLOPES(SLOPES)
       ) patch (
           .clock(clock),
-          .take(data_valid),
+          .take(take),
           .phase(item_phase),
           .h1(h1),
           .h2(h2),
@@ -330,7 +350,7 @@ module interpolator #(
   logic [TAG*LATENCY-1:0] tags;
   always_ff @(posedge clock) begin
     if (reset) valids <= '0;
-    else valids <= {valids[LATENCY-2:0], data_valid && item_phase == 2'd3};
+    else valids <= {valids[LATENCY-2:0], take && item_phase == 2'd3};
     existing <= {existing[LATENCY-2:0], exists};
     tags     <= {tags[TAG*(LATENCY-1)-1:0], item_tag};
   end

@@ -9,22 +9,27 @@ module pyramid_axis #(
     output logic        [CELL-1:0] stored,      // index of the stored bound
     output logic                   none         // there is none
 );
-  // A constant: Yosys 0.23 takes -N'(x) for (-N)'(x).
-  localparam logic signed [CELL:0] MARGIN = -1;
+  // Where the map ends, blocks -1 to ceil((nodes - 1) / 2^m) are stored, else those with nodes. A cell
+  // is beyond the last of these if even the block before it begins at the last node or behind:
+  // no shift of `nodes` is needed to know that there is no bound.
+  localparam int C = CELL + 2;
+  logic signed [C-1:0] block, last, edge_cell, size, low_bits, beginning;
 
-  // Where the map ends, blocks -1 to ceil((nodes - 1) / 2^m) are stored, else those with nodes.
-  logic signed [CELL:0] block, last;
-  logic [CELL:0] edge_cell, rounded;
-
-  assign block = (CELL + 1)'(cell_index) >>> level;
-  assign edge_cell = {1'b0, nodes} - (CELL + 1)'(1);
-  assign rounded = edge_cell + ((CELL + 1)'(1) << level) - (CELL + 1)'(1);
-  assign last = $signed((ends ? rounded : edge_cell) >> level);
+  assign edge_cell = $signed({2'b0, nodes}) - C'(1);
+  assign block = C'(cell_index) >>> level;
+  assign last = edge_cell >>> level;
+  always_comb begin
+    for (int at = 0; at < C; at++) begin
+      size[at] = 32'(level) == at;
+      low_bits[at] = 32'(level) > at;
+    end
+  end
+  assign beginning = C'(cell_index) & ~low_bits;
 
   always_comb begin
     none = 1'b0;
     if (ends) begin
-      none   = block < MARGIN || block > last;
+      none   = C'(cell_index) + size < 0 || beginning >= edge_cell + size;
       stored = CELL'(block) + CELL'(1);
     end else if (block < 0) begin
       stored = '0;

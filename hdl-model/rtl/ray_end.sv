@@ -7,8 +7,8 @@ module ray_end #(
     // Coefficients
     input  logic signed [   W-1:0] highest,      // the highest node
     input  logic signed [   W-1:0] base,         // base of the block under the map
-    input  logic        [CELL-1:0] map_columns,  // nodes in x
-    input  logic        [CELL-1:0] map_rows,     // nodes in z
+    input  logic signed [CELL-1:0] east,         // cells in x
+    input  logic signed [CELL-1:0] south,        // cells in z
     input  logic                   map_ends,     // the map ends at its edge
     input  logic                   sides,        // the map has sides, down to the base
     // The ray
@@ -19,10 +19,6 @@ module ray_end #(
     input  logic        [     2:0] backward,     // bits x, y, z: the step is not positive
     output logic                   over          // nothing can be met any more
 );
-  logic signed [CELL-1:0] east, south;
-
-  assign east = $signed(map_columns) - CELL'(1);
-  assign south = $signed(map_rows) - CELL'(1);
   assign over = (forward[1] && y >= highest) || (sides && backward[1] && y < base)
       || (map_ends && ((backward[0] && i < 0) || (forward[0] && i >= east)
       || (backward[2] && j < 0) || (forward[2] && j >= south)));

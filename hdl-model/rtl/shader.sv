@@ -5,23 +5,24 @@
 // the ramp mixes two colours; colour times light is rounded to a byte. Sky, far and the side of the
 // map have constant colours.
 //
-// Cycles: one item per cycle. An item taken in cycle t is at the output in cycle t + 12 (L = 12:
-// eleven stages and the put into the queue); at most D = 13 items are held. The stages, by the
+// Cycles: one item per cycle. An item taken in cycle t is at the output in cycle t + 13 (L = 13:
+// twelve stages and the put into the queue); at most D = 14 items are held. The stages, by the
 // register that ends them:
 //
 //   |  light                                    |  colour
 // 1 |  magnitudes of the slopes                 |
 // 2 |  their leading one                        |  height shifted by the ramp's exponent
 // 3 |  normal shifted, light_y shifted          |  rounded
-// 4 |  rounded                                  |  height x gain: sums of four
-// 5 |  squares and dot product: sums of four    |  place on the ramp
-// 6 |  their sums                               |  segment and fraction
-// 7 |  entry of the table, read; dot product    |  colours of the segment, read
-// 8 |  dot product x table: sums of four        |  rise x fraction: sums of four
-// 9 |  their sum, rounded                       |  their sum
-// 10|  ambient added, limited to one            |  start added
-// 11|  colour x light: sums of four
-// 12|  their sum, rounded to bytes; constant colours; into the queue
+// 4 |  rounded                                  |  height x gain: sums of rows
+// 5 |  squares and dot product: sums of rows    |  place on the ramp
+// 6 |  their sums                               |  before the ramp, beyond it
+// 7 |  entry of the table, read; dot product    |  segment and fraction
+// 8 |  the entry's word                         |  colours of the segment, read
+// 9 |  dot product x table: sums of rows        |  rise x fraction: sums of rows
+// 10|  their sum, rounded                       |  their sum
+// 11|  ambient added, limited to one            |  start added
+// 12|  colour x light: sums of rows
+// 13|  their sum, rounded to bytes; constant colours; into the queue
 //
 // Ranges, with F = POINT; every multiplier and table is as wide as these ask for:
 // - slopes: any word. Normal: |component| <= 1 by (23), F + 2 bits with sign. Its vertical component
@@ -87,7 +88,7 @@ module shader #(
     output logic        [TAG-1:0] out_tag      // as taken
 );
   localparam int F = WIDE != 0 ? terraline_pkg::WIDE_POINT : terraline_pkg::NARROW_POINT;
-  localparam int STAGES = 11;
+  localparam int STAGES = 12;
   localparam int SHIFT = $clog2(W - F + 1);  // bits of the normal's shift, 1 .. W - F
   localparam int TABLE = 4 << RSQRT_LOG2;  // entries of the table that are held
   localparam int UNIT = RSQRT_LOG2 + 2;  // bits of an entry's number
@@ -119,17 +120,20 @@ module shader #(
 
   // Light, 2: places of the shift, the leading one's place above the point plus one.
   logic signed [W-1:0] slope_x_2, slope_z_2;
-  logic [SHIFT-1:0] leading, shift_2;
+  logic signed [7:0] leading;
+  logic [SHIFT-1:0] shift_2;
 
-  always_comb begin
-    leading = SHIFT'(1);
-    for (int at = 1; at < W - F; at++) if (magnitudes_1[F+at]) leading = SHIFT'(at + 1);
-  end
+  leading_one #(
+      .W(W - F)
+  ) leading_slope (
+      .word (magnitudes_1[W-1:F]),
+      .place(leading)
+  );
 
   always_ff @(posedge clock) begin
     slope_x_2 <= slope_x_1;
     slope_z_2 <= slope_z_1;
-    shift_2   <= leading;
+    shift_2   <= leading < 1 ? SHIFT'(1) : SHIFT'(leading) + SHIFT'(1);
   end
 
   // Light, 3: the normal shifted; toward_y times its vertical component 2^-shift.
@@ -246,15 +250,15 @@ module shader #(
     square_y_6 <= square_y;
   end
 
-  // Light, 7: the table's entry is read; the dot product.
+  // Light, 7 and 8: the table's entry is read, and stands in a register; the dot product.
   localparam logic [F-1:0] HALF = F'(1) << (F - 1);
 
   logic [F+1:0] rsqrt[TABLE];
-  logic [F+1:0] rsqrt_7;
+  logic [F+1:0] rsqrt_7, rsqrt_8;
   logic [2*F+3:0] square_sum;
   logic [UNIT-1:0] entry;
   logic signed [2*F+3:0] dot;
-  logic signed [F+2:0] dot_7;
+  logic signed [F+2:0] dot_7, dot_8;
 
   assign square_sum = square_x_6 + square_z_6 + {4'b0, square_y_6, HALF};
   assign entry = square_sum[2*F+1:2*F-RSQRT_LOG2];
@@ -263,41 +267,43 @@ module shader #(
   always_ff @(posedge clock) begin
     if (load_rsqrt && 32'(load_address) < TABLE) rsqrt[load_address[UNIT-1:0]] <= load_data[F+1:0];
     rsqrt_7 <= rsqrt[entry];
+    rsqrt_8 <= rsqrt_7;
     dot_7   <= dot[2*F+2:F];
+    dot_8   <= dot_7;
   end
 
-  // Light, 8 and 9: divided by the length of the normal. Light from behind is none.
+  // Light, 9 and 10: divided by the length of the normal. Light from behind is none.
   logic signed [2*F+5:0] diffuse;
   logic signed [2*F+5:0] diffuse_half;
-  logic lit_8;
-  logic [F+2:0] diffuse_9;
+  logic lit_9;
+  logic [F+2:0] diffuse_10;
 
   product #(
       .A(F + 3),
       .B(F + 3)
   ) multiply_diffuse (
       .clock(clock),
-      .a(dot_7),
-      .b($signed({1'b0, rsqrt_7})),
+      .a(dot_8),
+      .b($signed({1'b0, rsqrt_8})),
       .result(diffuse)
   );
 
   assign diffuse_half = diffuse + $signed({{(F + 6) {1'b0}}, HALF});
 
   always_ff @(posedge clock) begin
-    lit_8 <= dot_7 > 0;
-    diffuse_9 <= lit_8 ? diffuse_half[2*F+2:F] : '0;
+    lit_9 <= dot_8 > 0;
+    diffuse_10 <= lit_9 ? diffuse_half[2*F+2:F] : '0;
   end
 
-  // Light, 10: shade, at most one.
+  // Light, 11: shade, at most one.
   localparam logic [F:0] ONE = (F + 1)'(1) << F;
 
   logic [F+2:0] shade;
-  logic [F:0] shade_10;
+  logic [F:0] shade_11;
 
-  assign shade = diffuse_9 + {2'b0, ambient[F:0]};
+  assign shade = diffuse_10 + {2'b0, ambient[F:0]};
 
-  always_ff @(posedge clock) shade_10 <= !lit || shade > {2'b0, ONE} ? ONE : shade[F:0];
+  always_ff @(posedge clock) shade_11 <= !lit || shade > {2'b0, ONE} ? ONE : shade[F:0];
 
   // Colour, 1 to 3: the height shifted by the ramp's exponent, and rounded.
   localparam int LEFT = F + 1;  // a shift to the left by more leaves no bit of a height in range
@@ -306,6 +312,7 @@ module shader #(
   logic [F+2:0] height, height_2;
   logic signed [F+1:0] height_3;
   logic signed [8:0] places;
+  logic [7:0] height_places;  // of coefficients alone, in a register
 
   assign places = 9'(LEFT) - 9'(ramp_exponent);
 
@@ -316,11 +323,12 @@ module shader #(
       .PLACES(8)
   ) shift_height (
       .value (surface_1),
-      .places(places < 0 ? 8'd0 : places[7:0]),
+      .places(height_places),
       .out   (height)
   );
 
   always_ff @(posedge clock) begin
+    height_places <= places < 0 ? 8'd0 : places[7:0];
     surface_1 <= in_surface;
     height_2  <= height;
     height_3  <= height_2[F+2:1] + (F + 2)'(height_2[0]);
@@ -345,36 +353,40 @@ module shader #(
 
   always_ff @(posedge clock) place_5 <= place_half[2*F+6:F];
 
-  // Colour, 6: segment, and fraction inside it. The end of the ramp is that of its last segment.
+  // Colour, 6 and 7: segment, and fraction inside it. The end of the ramp is that of its last segment.
   localparam int INDEX = $clog2(SEGMENTS + 1);
 
   logic signed [6:0] cell_5;
-  logic beyond;
-  logic [INDEX-1:0] segment_6;
-  logic [F:0] fraction_6, fraction_7;
+  logic before_6, beyond_6;
+  logic [INDEX-1:0] cell_6, segment_7;
+  logic [F-1:0] inside_6;
+  logic [F:0] fraction_7, fraction_8;
 
   assign cell_5 = place_5[F+6:F];
-  assign beyond = cell_5 > $signed({3'b0, ramp_last});
 
   always_ff @(posedge clock) begin
-    if (cell_5 < 0) segment_6 <= '0;
-    else segment_6 <= beyond ? ramp_last[INDEX-1:0] : cell_5[INDEX-1:0];
-    fraction_6 <= beyond ? ONE : {1'b0, place_5[F-1:0]};
-    fraction_7 <= fraction_6;
+    before_6 <= cell_5 < 0;
+    beyond_6 <= cell_5 > $signed({3'b0, ramp_last});
+    cell_6 <= cell_5[INDEX-1:0];
+    inside_6 <= place_5[F-1:0];
+    if (before_6) segment_7 <= '0;
+    else segment_7 <= beyond_6 ? ramp_last[INDEX-1:0] : cell_6;
+    fraction_7 <= beyond_6 ? ONE : {1'b0, inside_6};
+    fraction_8 <= fraction_7;
   end
 
-  // Colour, 7 to 10, and the pixel's channels, 11 and 12.
+  // Colour, 8 to 11, and the pixel's channels, 12 and 13.
   logic [23:0] color;
 
   for (genvar channel = 0; channel < 3; channel++) begin : gen_channel
     logic [7:0] starts[1<<INDEX];
     logic signed [8:0] rises[1<<INDEX];
     logic load;
-    logic [7:0] start_7, start_8, start_9;
-    logic signed [8:0] rise_7;
+    logic [7:0] start_8, start_9, start_10;
+    logic signed [8:0] rise_8;
     logic signed [F+10:0] risen;
-    logic signed [F+8:0] risen_9;
-    logic signed [F+8:0] color_10;
+    logic signed [F+8:0] risen_10;
+    logic signed [F+8:0] color_11;
     logic signed [2*F+10:0] shaded;
     logic signed [2*F+10:0] nearest;
 
@@ -383,12 +395,12 @@ module shader #(
     always_ff @(posedge clock) begin
       if (load && !load_address[0]) starts[load_address[3+:INDEX]] <= load_data[F+:8];
       if (load && load_address[0]) rises[load_address[3+:INDEX]] <= load_data[F+:9];
-      start_7 <= starts[segment_6];
-      rise_7 <= rises[segment_6];
-      start_8 <= start_7;
+      start_8 <= starts[segment_7];
+      rise_8 <= rises[segment_7];
       start_9 <= start_8;
-      risen_9 <= risen[F+8:0];
-      color_10 <= risen_9 + $signed({1'b0, start_9, {F{1'b0}}});
+      start_10 <= start_9;
+      risen_10 <= risen[F+8:0];
+      color_11 <= risen_10 + $signed({1'b0, start_10, {F{1'b0}}});
     end
 
     product #(
@@ -396,8 +408,8 @@ module shader #(
         .B(9)
     ) multiply_rise (
         .clock(clock),
-        .a($signed({1'b0, fraction_7})),
-        .b(rise_7),
+        .a($signed({1'b0, fraction_8})),
+        .b(rise_8),
         .result(risen)
     );
 
@@ -406,8 +418,8 @@ module shader #(
         .B(F + 2)
     ) multiply_shade (
         .clock(clock),
-        .a(color_10),
-        .b($signed({1'b0, shade_10})),
+        .a(color_11),
+        .b($signed({1'b0, shade_11})),
         .result(shaded)
     );
 
@@ -416,14 +428,14 @@ module shader #(
     assign color[8*channel+:8] = nearest[2*F+:8];
   end
 
-  // 12: constant colours, and the queue.
+  // 13: constant colours, and the queue.
   logic [23:0] pixel;
-  logic [ 1:0] hit_11;
+  logic [ 1:0] hit_12;
 
-  assign hit_11 = along[STAGES][TAG+:2];
+  assign hit_12 = along[STAGES][TAG+:2];
 
   always_comb begin
-    case (hit_11)
+    case (hit_12)
       2'd0: pixel = sky_color;
       2'd1: pixel = color;
       2'd2: pixel = side_color;

@@ -1,9 +1,9 @@
 // The ray stepper: the first sample of a ray under the surface (docs/units/stepper.md).
 //
 // One ray at a time, as a state machine; its work on a ray takes
-// 2 + trials (1 + M) + samples R + groups (M + 5) + halvings (R + M + 5) + hits 2 cycles, on maps with
-// holes 2 R + M + 5 more per hit (docs/cycles.md). Two sets of accumulators: `place` is the last place
-// known to be clear, `issue` runs ahead of it while samples stream through the interpolation.
+// 4 + trials (1 + M) + samples R + groups (N + 5) + halvings (R + N + 5) + hits 2 cycles with
+// N = max(M, 2), on maps with holes 2 R + N + 5 more per hit (docs/cycles.md). The places of the walk are in
+// three `ray_axis`, the count of its samples in `walk_plan`: here is what happens when.
 //
 // Never wraps a position (the plan proves their range), never passes a sample that might hit, never
 // multiplies.
@@ -75,48 +75,54 @@ module stepper #(
   localparam logic [1:0] SKY = 2'd0, SURFACE = 2'd1, SIDE = 2'd2, FAR = 2'd3;
   localparam logic [1:0] ENTRY_MET = 2'd0, ENTRY_FAR = 2'd2;
 
-  localparam logic [3:0] IDLE = 4'd0;    // waits for a ray, and takes it
-  localparam logic [3:0] START = 4'd1;   // makes its step
-  localparam logic [3:0] TRIAL = 4'd2;   // asks for a bound
-  localparam logic [3:0] BOUND = 4'd3;   // waits for it, and jumps or not
-  localparam logic [3:0] SAMPLE = 4'd4;  // a group of samples streams
-  localparam logic [3:0] AIM = 4'd5;     // takes the distance of the hit
-  localparam logic [3:0] HALVE = 4'd6;   // asks whether the middle hits
-  localparam logic [3:0] RIM = 4'd7;     // asks whether there is a surface beside the hit
-  localparam logic [3:0] PLACE = 4'd8;   // places the hit
+  localparam logic [3:0] IDLE = 4'd0;  // waits for a ray, and takes it
+  localparam logic [3:0] SCALE = 4'd1;  // finds its largest component
+  localparam logic [3:0] STEP = 4'd2;  // makes its step
+  localparam logic [3:0] START = 4'd3;  // starts its walk
+  localparam logic [3:0] TRIAL = 4'd4;  // asks for a bound
+  localparam logic [3:0] BOUND = 4'd5;  // waits for it, and jumps or not
+  localparam logic [3:0] SAMPLE = 4'd6;  // a group of samples streams
+  localparam logic [3:0] AIM = 4'd7;  // takes the distance of the hit
+  localparam logic [3:0] HALVE = 4'd8;  // asks whether the middle hits
+  localparam logic [3:0] RIM = 4'd9;  // asks whether there is a surface beside the hit
+  localparam logic [3:0] PLACE = 4'd10;  // places the hit
 
   logic [3:0] state;
 
   // The ray.
   logic signed [W-1:0] view_x, view_y, view_z;
-  logic signed [7:0] places;  // shift of the view vector to a step
+  logic signed [7:0] right;  // shift of the view vector to a step
   logic [1:0] entry;
   logic signed [W-1:0] step_x, step_y, step_z;
   logic [2:0] forward, backward;  // bits x, y, z: the step is not negative, not positive
 
   // The walk.
   logic signed [W-1:0] place_x, place_y, place_z;
-  logic [25:0] remaining;  // samples up to the last one
-  logic [4:0] level;
-  // A jump, while its bound is awaited.
-  logic signed [W-1:0] ahead_x, ahead_y, ahead_z;
-  logic [25:0] remaining_ahead;
-  logic none;
-  // A group of samples.
+  logic signed [W-1:0] follow_x, follow_y, follow_z;
   logic signed [W-1:0] issue_x, issue_y, issue_z;
-  logic [6:0] to_issue;
-  logic epoch;  // answers of another epoch are of no interest any more
-  // A hit.
+  logic signed [W-1:0] ahead_x, ahead_y, ahead_z;
   logic signed [W-1:0] met_x, met_y, met_z;
-  logic signed [W-1:0] half_x, half_y, half_z;
-  logic [5:0] halvings;
+  logic [25:0] remaining, remaining_next, remaining_ahead;
+  logic [4:0] level;
+  logic none;  // there is no bound
+  logic [6:0] to_issue;  // samples of a group
+  logic epoch;  // answers of another epoch are of no interest any more
+  logic [5:0] halvings_left;
   logic issued;  // a halving's sample is on its way; at the rim: the first one
   logic issued_second;
   logic clear_exists, first_answered;
 
+  // Cells of the map, of coefficients alone.
+  logic signed [CELL-1:0] east, south;
+  always_ff @(posedge clock) begin
+    east <= $signed(map_columns) - CELL'(1);
+    south <= $signed(map_rows) - CELL'(1);
+  end
+
   // ---- The start: a step of the view vector (equation 20).
   logic [W-1:0] in_magnitude_x, in_magnitude_y, in_magnitude_z;
-  logic signed [7:0] in_leading;
+  logic [W-1:0] longest;  // has the leading one of the largest component
+  logic signed [7:0] view_leading;
   logic signed [W-1:0] new_step_x, new_step_y, new_step_z;
   logic [2:0] new_forward, new_backward;
   logic start_over;
@@ -124,64 +130,65 @@ module stepper #(
   assign in_magnitude_x = in_view_x < 0 ? -in_view_x : in_view_x;
   assign in_magnitude_y = in_view_y < 0 ? -in_view_y : in_view_y;
   assign in_magnitude_z = in_view_z < 0 ? -in_view_z : in_view_z;
-  // The largest component has the leading one of all together.
   leading_one #(
       .W(W)
   ) leading_view (
-      .word(in_magnitude_x | in_magnitude_y | in_magnitude_z),
-      .place(in_leading)
+      .word(longest),
+      .place(view_leading)
   );
   ray_step #(
-      .W(W)
+      .W(W),
+      .POINT(POINT)
   ) ray_step_x (
       .view(view_x),
-      .places(places),
-      .step(new_step_x)
+      .right(right),
+      .step(new_step_x),
+      .forward(new_forward[0]),
+      .backward(new_backward[0])
   );
   ray_step #(
-      .W(W)
+      .W(W),
+      .POINT(POINT)
   ) ray_step_y (
       .view(view_y),
-      .places(places),
-      .step(new_step_y)
+      .right(right),
+      .step(new_step_y),
+      .forward(new_forward[1]),
+      .backward(new_backward[1])
   );
   ray_step #(
-      .W(W)
+      .W(W),
+      .POINT(POINT)
   ) ray_step_z (
       .view(view_z),
-      .places(places),
-      .step(new_step_z)
+      .right(right),
+      .step(new_step_z),
+      .forward(new_forward[2]),
+      .backward(new_backward[2])
   );
-  assign new_forward = {new_step_z >= 0, new_step_y >= 0, new_step_x >= 0};
-  assign new_backward = {new_step_z <= 0, new_step_y <= 0, new_step_x <= 0};
   ray_end #(
       .W(W),
       .CELL(CELL)
   ) end_at_start (
       .highest(highest),
       .base(base),
-      .map_columns(map_columns),
-      .map_rows(map_rows),
+      .east(east),
+      .south(south),
       .map_ends(map_ends),
       .sides(sides),
       .i(place_x[POINT+:CELL]),
       .y(place_y),
       .j(place_z[POINT+:CELL]),
-      .forward(new_forward),
-      .backward(new_backward),
+      .forward(forward),
+      .backward(backward),
       .over(start_over)
   );
 
   // ---- A trial: a jump of 2^(level+k) samples, if its bound allows it (equation 21).
   logic [5:0] jump_log2;
   logic pyramid_none;
-  logic signed [W-1:0] jump_x, jump_y, jump_z;
   logic clear, ahead_over;
 
-  assign jump_log2 = 6'(level) + 6'(fineness);
-  assign jump_x = step_x <<< jump_log2;
-  assign jump_y = step_y <<< jump_log2;
-  assign jump_z = step_z <<< jump_log2;
   pyramid #(
       .CELL(CELL)
   ) pyramid (
@@ -204,8 +211,8 @@ module stepper #(
   ) end_ahead (
       .highest(highest),
       .base(base),
-      .map_columns(map_columns),
-      .map_rows(map_rows),
+      .east(east),
+      .south(south),
       .map_ends(map_ends),
       .sides(sides),
       .i(ahead_x[POINT+:CELL]),
@@ -216,47 +223,38 @@ module stepper #(
       .over(ahead_over)
   );
 
-  // ---- Samples: `issue` runs ahead, `place` follows with the answers.
-  logic signed [W-1:0] next_issue_x, next_issue_y, next_issue_z;
-  logic signed [W-1:0] follow_x, follow_y, follow_z;
-  logic next_over, issuing;
+  // ---- Samples: `issue` runs ahead, `follow` and `place` come behind with the answers.
+  logic issue_over, issuing;
   logic answered, hits;
   logic tag_last, tag_over;
 
-  assign next_issue_x = issue_x + step_x;
-  assign next_issue_y = issue_y + step_y;
-  assign next_issue_z = issue_z + step_z;
   ray_end #(
       .W(W),
       .CELL(CELL)
   ) end_issued (
       .highest(highest),
       .base(base),
-      .map_columns(map_columns),
-      .map_rows(map_rows),
+      .east(east),
+      .south(south),
       .map_ends(map_ends),
       .sides(sides),
-      .i(next_issue_x[POINT+:CELL]),
-      .y(next_issue_y),
-      .j(next_issue_z[POINT+:CELL]),
+      .i(issue_x[POINT+:CELL]),
+      .y(issue_y),
+      .j(issue_z[POINT+:CELL]),
       .forward(forward),
       .backward(backward),
-      .over(next_over)
+      .over(issue_over)
   );
-  // The sample that is answered next, or the middle between the clear place and the hit.
-  assign follow_x = place_x + (state == SAMPLE ? step_x : half_x);
-  assign follow_y = place_y + (state == SAMPLE ? step_y : half_y);
-  assign follow_z = place_z + (state == SAMPLE ? step_z : half_z);
 
   assign issuing = state == SAMPLE ? to_issue != '0
                  : state == HALVE ? !issued
                  : state == RIM && !issued_second;
   assign sample_valid = issuing;
-  assign sample_tag = {epoch, to_issue == 7'd1, next_over};
+  assign sample_tag = {epoch, to_issue == 7'd1, issue_over};
   always_comb begin
     if (state == SAMPLE) begin
-      sample_x = next_issue_x;
-      sample_z = next_issue_z;
+      sample_x = issue_x;
+      sample_z = issue_z;
     end else if (state == RIM && !issued) begin
       sample_x = place_x;
       sample_z = place_z;
@@ -274,31 +272,136 @@ module stepper #(
   logic sampling;  // a sample is in its later cycles
   assign sample_first = !sampling;
 
-  // ---- The hit: halvings from its distance (equation 22).
-  logic signed [W-1:0] away_x, away_y, away_z;
-  logic [W-1:0] magnitude_x, magnitude_y, magnitude_z;
-  logic signed [7:0] away_leading;
-  logic signed [9:0] wanted;
+  // ---- The walk.
+  logic tests, moves, issues;
+
+  assign tests = answered && (state == SAMPLE || state == HALVE);
+  assign moves = (state == BOUND && bound_valid && clear) || (tests && !hits);
+  assign issues = state == SAMPLE && issuing && sample_last;
+  ray_axis #(
+      .W(W)
+  ) axis_x (
+      .clock(clock),
+      .step(step_x),
+      .origin(from_eye ? eye_x : in_ground_x),
+      .jump_log2(jump_log2),
+      .takes(state == IDLE),
+      .starts(state == START),
+      .tries(state == TRIAL),
+      .waits(state == BOUND),
+      .issues(issues),
+      .aims(state == AIM),
+      .halves(state == HALVE),
+      .answered(tests),
+      .hits(hits),
+      .moves(moves),
+      .place(place_x),
+      .follow(follow_x),
+      .issue(issue_x),
+      .ahead(ahead_x),
+      .met(met_x)
+  );
+  ray_axis #(
+      .W(W)
+  ) axis_y (
+      .clock(clock),
+      .step(step_y),
+      .origin(from_eye ? eye_y : highest),
+      .jump_log2(jump_log2),
+      .takes(state == IDLE),
+      .starts(state == START),
+      .tries(state == TRIAL),
+      .waits(state == BOUND),
+      .issues(issues),
+      .aims(state == AIM),
+      .halves(state == HALVE),
+      .answered(tests),
+      .hits(hits),
+      .moves(moves),
+      .place(place_y),
+      .follow(follow_y),
+      .issue(issue_y),
+      .ahead(ahead_y),
+      .met(met_y)
+  );
+  ray_axis #(
+      .W(W)
+  ) axis_z (
+      .clock(clock),
+      .step(step_z),
+      .origin(from_eye ? eye_z : in_ground_z),
+      .jump_log2(jump_log2),
+      .takes(state == IDLE),
+      .starts(state == START),
+      .tries(state == TRIAL),
+      .waits(state == BOUND),
+      .issues(issues),
+      .aims(state == AIM),
+      .halves(state == HALVE),
+      .answered(tests),
+      .hits(hits),
+      .moves(moves),
+      .place(place_z),
+      .follow(follow_z),
+      .issue(issue_z),
+      .ahead(ahead_z),
+      .met(met_z)
+  );
+
+  logic signed [7:0] ahead_leading;
+  logic trial_follows;
+  logic [6:0] run;
+  logic [3:0] walk_on;
+
+  walk_plan plan (
+      .clock(clock),
+      .fineness(fineness),
+      .last(last),
+      .skipping(skipping),
+      .pyramid_top(pyramid_top),
+      .starts(state == START),
+      .tries(state == TRIAL),
+      .waits(state == BOUND),
+      .bounded(bound_valid),
+      .clear(clear),
+      .passes(state == SAMPLE && answered),
+      .ends_group(tag_last),
+      .remaining(remaining),
+      .remaining_next(remaining_next),
+      .remaining_ahead(remaining_ahead),
+      .ahead_leading(ahead_leading),
+      .level(level),
+      .jump_log2(jump_log2),
+      .trial_follows(trial_follows),
+      .run(run)
+  );
+  assign walk_on = trial_follows ? TRIAL : SAMPLE;
+
+  // ---- The hit: its halvings (equation 22).
+  logic halves;
+  logic aimed;  // the first cycle of the halvings
   logic [5:0] times;
 
-  assign away_x = met_x - eye_x;
-  assign away_y = met_y - eye_y;
-  assign away_z = met_z - eye_z;
-  assign magnitude_x = away_x < 0 ? -away_x : away_x;
-  assign magnitude_y = away_y < 0 ? -away_y : away_y;
-  assign magnitude_z = away_z < 0 ? -away_z : away_z;
-  leading_one #(
-      .W(W)
-  ) leading_away (
-      .word(magnitude_x | magnitude_y | magnitude_z),
-      .place(away_leading)
+  halvings #(
+      .W(W),
+      .POINT(POINT)
+  ) halvings (
+      .clock(clock),
+      .eye_x(eye_x),
+      .eye_y(eye_y),
+      .eye_z(eye_z),
+      .fixed(halvings_fixed),
+      .bias(halvings_bias),
+      .cap(halvings_cap),
+      .x(follow_x),
+      .y(follow_y),
+      .z(follow_z),
+      .any(halves),
+      .times(times)
   );
-  assign wanted = 10'(halvings_bias) - 10'(away_leading) + 10'(POINT);
-  assign times = halvings_fixed || wanted > $signed({4'b0, halvings_cap}) ? halvings_cap
-               : wanted < 0 ? '0 : wanted[5:0];
 
   // ---- Its place.
-  logic signed [CELL-1:0] clear_i, clear_j, middle_i, middle_j, east, south;
+  logic signed [CELL-1:0] clear_i, clear_j, middle_i, middle_j;
   logic clear_on_map, middle_on_map;
   logic clear_there, middle_there, middle_exists;
   logic under_base;
@@ -307,8 +410,6 @@ module stepper #(
   assign clear_j = place_z[POINT+:CELL];
   assign middle_i = follow_x[POINT+:CELL];
   assign middle_j = follow_z[POINT+:CELL];
-  assign east = $signed(map_columns) - CELL'(1);
-  assign south = $signed(map_rows) - CELL'(1);
   assign clear_on_map = !map_ends
       || (clear_i >= 0 && clear_i < east && clear_j >= 0 && clear_j < south);
   assign middle_on_map = !map_ends
@@ -317,46 +418,6 @@ module stepper #(
   assign middle_there = void_bits ? middle_exists : middle_on_map;
   // A ray that does not rise meets nothing below the base.
   assign under_base = backward[1] && met_y < base;
-
-  // ---- The level of the next trial: the jump must not pass the last sample.
-  logic [25:0] remaining_next;
-  logic signed [7:0] remaining_leading, most;
-  logic [4:0] wanted_level, next_level;
-  logic [25:0] group;
-  logic [6:0] run;  // samples of a group, at most 2^6
-  logic may_jump;
-  logic [3:0] walk_on;
-
-  always_comb begin
-    case (state)
-      START: begin
-        remaining_next = last;
-        wanted_level = '0;
-      end
-      BOUND: begin
-        remaining_next = clear ? remaining_ahead : remaining;
-        wanted_level = !clear ? level - 5'd1 : level == pyramid_top ? level : level + 5'd1;
-      end
-      default: begin
-        remaining_next = remaining - 26'd1;
-        wanted_level = '0;
-      end
-    endcase
-  end
-  leading_one #(
-      .W(26)
-  ) leading_remaining (
-      .word(remaining_next),
-      .place(remaining_leading)
-  );
-  assign most = remaining_leading - $signed({5'b0, fineness});
-  // At level 0, a trial that is not clear is followed by a group of samples.
-  assign may_jump = skipping && most >= 0 && !(state == BOUND && !clear && level == '0);
-  assign next_level = !may_jump ? '0
-                    : most < $signed({3'b0, wanted_level}) ? most[4:0] : wanted_level;
-  assign walk_on = may_jump ? TRIAL : SAMPLE;
-  assign group = skipping ? 26'd1 << fineness : 26'd1;
-  assign run = remaining_next < group ? remaining_next[6:0] : group[6:0];
 
   // ---- The end of a walk.
   logic put;
@@ -418,7 +479,9 @@ module stepper #(
     end else begin
       sampling <= issuing && !sample_last;
       case (state)
-        IDLE: if (in_valid && in_ready) state <= START;
+        IDLE: if (in_valid && in_ready) state <= SCALE;
+        SCALE: state <= STEP;
+        STEP: state <= START;
         START: state <= put ? IDLE : walk_on;
         TRIAL: state <= BOUND;
         BOUND: if (bound_valid) state <= put ? IDLE : walk_on;
@@ -434,11 +497,11 @@ module stepper #(
             end
           end
         end
-        AIM: state <= times != '0 ? HALVE : void_bits ? RIM : PLACE;
+        AIM: state <= halves ? HALVE : void_bits ? RIM : PLACE;
         HALVE: begin
           if (answered) begin
             epoch <= !epoch;
-            if (halvings == 6'd1) state <= void_bits ? RIM : PLACE;
+            if (halvings_left == 6'd1) state <= void_bits ? RIM : PLACE;
           end
         end
         RIM: begin
@@ -459,75 +522,18 @@ module stepper #(
         view_x <= in_view_x;
         view_y <= in_view_y;
         view_z <= in_view_z;
-        places <= in_leading + 8'sd1 + $signed({5'b0, fineness}) - 8'(POINT);
+        longest <= in_magnitude_x | in_magnitude_y | in_magnitude_z;
         entry <= from_eye ? ENTRY_MET : in_entry;
-        place_x <= from_eye ? eye_x : in_ground_x;
-        place_y <= from_eye ? eye_y : highest;
-        place_z <= from_eye ? eye_z : in_ground_z;
       end
-      START: begin
+      SCALE: right <= view_leading + $signed({5'b0, fineness}) - 8'(POINT);
+      STEP: begin
         step_x <= new_step_x;
         step_y <= new_step_y;
         step_z <= new_step_z;
         forward <= new_forward;
         backward <= new_backward;
-        issue_x <= place_x;
-        issue_y <= place_y;
-        issue_z <= place_z;
-        remaining <= last;
       end
-      TRIAL: begin
-        ahead_x <= place_x + jump_x;
-        ahead_y <= place_y + jump_y;
-        ahead_z <= place_z + jump_z;
-        remaining_ahead <= remaining - (26'd1 << jump_log2);
-        none <= pyramid_none;
-      end
-      BOUND: begin
-        if (bound_valid && clear) begin
-          place_x <= ahead_x;
-          place_y <= ahead_y;
-          place_z <= ahead_z;
-          remaining <= remaining_ahead;
-        end
-        issue_x <= clear ? ahead_x : place_x;
-        issue_y <= clear ? ahead_y : place_y;
-        issue_z <= clear ? ahead_z : place_z;
-      end
-      SAMPLE: begin
-        if (issuing && sample_last) begin
-          issue_x <= next_issue_x;
-          issue_y <= next_issue_y;
-          issue_z <= next_issue_z;
-        end
-        if (answered) begin
-          remaining <= remaining_next;
-          if (hits) begin
-            met_x <= follow_x;
-            met_y <= follow_y;
-            met_z <= follow_z;
-          end else begin
-            place_x <= follow_x;
-            place_y <= follow_y;
-            place_z <= follow_z;
-          end
-        end
-      end
-      AIM: halvings <= times;
-      HALVE: begin
-        if (answered) begin
-          halvings <= halvings - 6'd1;
-          if (hits) begin
-            met_x <= follow_x;
-            met_y <= follow_y;
-            met_z <= follow_z;
-          end else begin
-            place_x <= follow_x;
-            place_y <= follow_y;
-            place_z <= follow_z;
-          end
-        end
-      end
+      TRIAL: none <= pyramid_none;
       RIM: begin
         if (answered) begin
           if (first_answered) middle_exists <= answer_exists;
@@ -537,22 +543,14 @@ module stepper #(
       default: ;
     endcase
 
-    // The half step: one halving ahead of those done.
-    if (state == AIM) begin
-      half_x <= step_x >>> 1;
-      half_y <= step_y >>> 1;
-      half_z <= step_z >>> 1;
-    end else if (state == HALVE && answered) begin
-      half_x <= half_x >>> 1;
-      half_y <= half_y >>> 1;
-      half_z <= half_z >>> 1;
-    end
+    aimed <= state == AIM;
+    if (aimed) halvings_left <= times;
+    else if (answered) halvings_left <= halvings_left - 6'd1;
 
     // Samples to be issued: of a group, of a halving, of the rim.
     if (state == START || state == BOUND || (state == SAMPLE && answered && tag_last)) begin
-      level <= bound_valid || state != BOUND ? next_level : level;
       to_issue <= run;
-    end else if (state == SAMPLE && issuing && sample_last) begin
+    end else if (issues) begin
       to_issue <= to_issue - 7'd1;
     end
     if (state == HALVE && !answered) begin

@@ -1,6 +1,6 @@
 // The interpolator's place in the chain: hands the place of each hit to the interpolation and what
 // comes back to the shader. One item per R cycles; an item taken in cycle t can go on in cycle
-// t + R - 1 + M + LERP_LATENCY + SLOPE_LATENCY.
+// t + R - 1 + max(M, KERNEL_LATENCY) + LERP_LATENCY + SLOPE_LATENCY.
 //
 // Pixels without a hit go the same way; nobody looks at their surface.
 module surface_stage #(
@@ -41,6 +41,13 @@ module surface_stage #(
   localparam int STAGES = terraline_pkg::LERP_LATENCY + terraline_pkg::SLOPE_LATENCY;
   localparam int ITEM = 2 + 3 * W;
 
+  // From the coefficient alone, in a register.
+  localparam logic [6:0] KERNEL = 7'(terraline_pkg::KERNEL_LATENCY);
+  logic [6:0] depth;
+  always_ff @(posedge clock) begin
+    depth <= (memory_latency < KERNEL ? KERNEL : memory_latency) + 7'(STAGES + 1);
+  end
+
   logic room, busy, take;
   logic [1:0] held_hit;
   logic signed [W-1:0] held_x, held_z;
@@ -68,7 +75,7 @@ module surface_stage #(
   ) credits (
       .clock(clock),
       .reset(reset),
-      .depth(memory_latency + 7'(STAGES + 1)),
+      .depth(depth),
       .enter(take),
       .leave(out_valid && out_ready),
       .room(room)

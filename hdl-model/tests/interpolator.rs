@@ -10,7 +10,7 @@ use std::sync::Arc;
 use machines::{Bits, heights, place, raw, rom};
 use random::Random;
 use terraline::scene::KernelShape;
-use terraline::setup::table::LERP_LATENCY;
+use terraline::setup::table::{KERNEL_LATENCY, LERP_LATENCY};
 use terraline::unit::height_memory::Edge;
 use terraline::unit::interpolator::{Form, Interpolator};
 use terraline::unit::stepper::SurfaceUnit;
@@ -211,7 +211,8 @@ impl<W: Bits> Bench<W> {
             if let Some((token, cycle)) = request {
                 assert_eq!(self.rtl.is(request_last), cycle + 1 == reads);
                 if cycle + 1 == reads {
-                    let cycle = self.rtl.cycle() + memory_latency as u64 + u64::from(latency);
+                    let nodes = KERNEL_LATENCY.max(memory_latency as u32);
+                    let cycle = self.rtl.cycle() + u64::from(nodes + latency);
                     due.push_back((cycle, token));
                 }
             }

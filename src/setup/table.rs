@@ -7,11 +7,15 @@ use super::formats::follows;
 use crate::plan::WordClass;
 use crate::word::Register;
 
-/// Pipeline stages of the interpolator behind its memory: ROM and blend, lerps along z, lerp along
-/// x, compare.
+/// Pipeline stages of the interpolator behind nodes and weights: differences, lerps along z, lerp
+/// along x, compare.
 pub const LERP_LATENCY: u32 = 5;
-/// Cycles to shift a view vector into a step.
-pub const RAY_START: u32 = 2;
+/// Cycles from a place to the weights of its nodes: kernel ROM and blend. They pass beside the
+/// memory's own; one that is faster waits for them.
+pub const KERNEL_LATENCY: u32 = 2;
+/// Cycles to turn a view vector into a step and to begin a walk with it: magnitudes, their leading
+/// one, shift, end of the walk.
+pub const RAY_START: u32 = 4;
 /// Cycles that a hit takes besides its halvings: one for its distance from the eye, which says how
 /// many they are, and one to place it.
 pub const RAY_END: u32 = 2;
@@ -19,8 +23,8 @@ pub const RAY_END: u32 = 2;
 pub const SLOPE_LATENCY: u32 = 2;
 /// Pipeline stages of the shader (normal, squares, table, dot product, light, ramp, mix, byte), and
 /// of the checker, which has fewer to do.
-pub const SHADER_LATENCY: u32 = 12;
-/// Register stages of the divider besides one per quotient bit: bias, range, eye.
+pub const SHADER_LATENCY: u32 = 13;
+/// Register stages of the divider besides one per quotient bit: shift, bias and range, eye.
 pub const DIVIDER_ENDS: u32 = 3;
 
 /// One row of the table.
@@ -135,14 +139,15 @@ pub fn markdown() -> String {
          | projector | 1 | 1 | 2 |\n\
          | divider, array | 1 | bits + {DIVIDER_ENDS} | bits + {} |\n\
          | divider, serial | bits + {DIVIDER_ENDS} | 1 | 2 |\n\
-         | stepper | {RAY_START} + trials·(1 + M) + samples·R + groups·(M + {LERP_LATENCY}) + \
-         halvings·(R + M + {LERP_LATENCY}) + hits·({RAY_END} + H) | 1 | 2 |\n\
-         | interpolator | R | M + {} | M + {} |\n\
+         | stepper | {RAY_START} + trials·(1 + M) + samples·R + groups·(N + {LERP_LATENCY}) + \
+         halvings·(R + N + {LERP_LATENCY}) + hits·({RAY_END} + H) | 1 | 2 |\n\
+         | interpolator | R | N + {} | N + {} |\n\
          | shader, checker | 1 | {SHADER_LATENCY} | {} |\n\
          | frame | 1 | 0 | 1 |\n\n\
          R, reads of the height memory per interpolation: 1 cycle for 2×2 nodes, 4 for 3×3. A \
-         group is a run of up to 2^k samples streamed through the interpolator. H is 2R + M + \
-         {LERP_LATENCY} on a map with holes, else 0.\n",
+         group is a run of up to 2^k samples streamed through the interpolator. H is 2R + N + \
+         {LERP_LATENCY} on a map with holes, else 0. N is the larger of M and {KERNEL_LATENCY}, the cycles \
+         of kernel ROM and blend.\n",
         DIVIDER_ENDS + 1,
         LERP_LATENCY + SLOPE_LATENCY,
         LERP_LATENCY + SLOPE_LATENCY + 1,

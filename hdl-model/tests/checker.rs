@@ -4,62 +4,24 @@
 
 mod elastic;
 mod random;
+mod stock;
 
 use elastic::Pace;
 use random::Random;
+use stock::{SHADING, Stock, bits, packed, word};
 use terraline::plan::Plan;
 use terraline::processor::Processor;
-use terraline::scene::{WordSize, load};
-use terraline::setup::table::SHADER_LATENCY;
+use terraline::scene::load;
 use terraline::setup::{Back, Memory, Setup};
 use terraline::unit::Line;
 use terraline::unit::checker::Checker;
 use terraline::unit::color::Flat;
 use terraline::unit::line::Entry;
 use terraline::word::stock::{Narrow, Wide};
-use terraline::word::{Cell, Complete, Lane, Multiply, Register, Site, Word};
+use terraline::word::{Cell, Lane, Multiply, Register, Site, Word};
 use terraline_hdl::Model;
 
 const TAG: u64 = 0xffff;
-
-/// A world of words that are integers of up to 64 bits.
-trait Stock:
-    Complete<
-        View: Lane<Int: Into<i64> + TryFrom<i64>>,
-        Ground: Lane<Int: Into<i64> + TryFrom<i64>>,
-        Tone: Lane<Int: Into<i64> + TryFrom<i64>>,
-    >
-{
-    const MODEL: &'static str;
-    const WORDS: WordSize;
-    const WIDTH: u32;
-}
-
-impl Stock for Narrow {
-    const MODEL: &'static str = "checkers_narrow";
-    const WORDS: WordSize = WordSize::Narrow;
-    const WIDTH: u32 = 32;
-}
-
-impl Stock for Wide {
-    const MODEL: &'static str = "checkers_wide";
-    const WORDS: WordSize = WordSize::Wide;
-    const WIDTH: u32 = 64;
-}
-
-fn word<T: Lane<Int: TryFrom<i64>>>(bits: i64) -> T {
-    let Ok(int) = T::Int::try_from(bits) else { panic!("{bits} is wider than a word") };
-    T::of_int(int)
-}
-
-fn bits<T: Lane<Int: Into<i64>>>(word: T) -> i64 {
-    word.int().into()
-}
-
-fn packed(color: [u8; 3]) -> u64 {
-    let [red, green, blue] = color.map(u64::from);
-    red | green << 8 | blue << 16
-}
 
 /// Drives the coefficient ports.
 fn load_coefficients<W: Stock>(rtl: &mut Model, checker: &Checker<W>) {
@@ -79,7 +41,6 @@ fn load_coefficients<W: Stock>(rtl: &mut Model, checker: &Checker<W>) {
 /// Runs the items of a line, whose colours the emulator has computed, through the module.
 fn compare<W: Stock>(rtl: &mut Model, line: &Line<W>, random: &mut Random) {
     let pace = Pace::random(random, line.len());
-    let timing = (SHADER_LATENCY.into(), SHADER_LATENCY as usize + 1);
     let [entry, denominator] = ["in_entry", "in_denominator"].map(|name| rtl.port(name));
     let [ground_x, ground_z] = ["in_ground_x", "in_ground_z"].map(|name| rtl.port(name));
     let in_tag = rtl.port("in_tag");
@@ -88,7 +49,7 @@ fn compare<W: Stock>(rtl: &mut Model, line: &Line<W>, random: &mut Random) {
     elastic::run(
         rtl,
         &pace,
-        timing,
+        SHADING,
         |rtl, item| {
             let Some(i) = item else {
                 rtl.set(entry, random.bits() & 3);
@@ -141,7 +102,7 @@ fn views(random: &mut Random) -> Vec<String> {
 
 fn real_frames<W: Stock>(world: W, seed: u64) {
     let mut random = Random(seed);
-    let mut rtl = Model::new(W::MODEL);
+    let mut rtl = Model::new(&format!("checkers_{}", W::NAME));
     let mut met = 0;
     for _ in 0..16 {
         let sets = views(&mut random);
@@ -259,7 +220,7 @@ fn hostile<W: Stock>(world: W, seed: u64) {
     /// Items tried for one near a rounding.
     const TRIALS: u32 = 200;
     let mut random = Random(seed);
-    let mut rtl = Model::new(W::MODEL);
+    let mut rtl = Model::new(&format!("checkers_{}", W::NAME));
     let largest = i64::MAX >> (64 - W::WIDTH);
     for _ in 0..60 {
         let (checker, below) = hostile_checker(world, &mut random);

@@ -1,16 +1,17 @@
 //! The divider against the emulator's unit: outcomes, quotients and cycles.
 #![cfg(rtl)]
 
+mod elastic;
 mod random;
-mod support;
 
+use elastic::{Pace, Timing};
 use random::Random;
-use support::{Bench, Timing, assert_timing, neighbours};
 use terraline::unit::Line;
 use terraline::unit::divider::{Divider, Method};
 use terraline::unit::line::Entry;
 use terraline::word::stock::{Narrow, Wide};
 use terraline::word::{Dividing, Lane, Ratio};
+use terraline_hdl::Model;
 
 /// A word size.
 trait Size: Dividing<View: Lane, Ground: Lane> + Default {
@@ -50,11 +51,8 @@ macro_rules! size {
 size!(Narrow, i32, "narrow", 32, 20, 32);
 size!(Wide, i64, "wide", 64, 24, 49);
 
-const INPUTS: [&str; 3] = ["in_view_x", "in_view_z", "in_denominator"];
-const OUTPUTS: [&str; 3] = ["out_entry", "out_ground_x", "out_ground_z"];
-
 /// Numerators and a denominator: of any size, or with a ratio near the ends of the range.
-fn item<S: Size>(random: &mut Random, shift: i32, bits: u32) -> Vec<i64> {
+fn item<S: Size>(random: &mut Random, shift: i32, bits: u32) -> [i64; 3] {
     let denominator = match random.below(6) {
         0 => 1 + random.below(4),
         _ => random.word(S::WIDTH),
@@ -71,12 +69,15 @@ fn item<S: Size>(random: &mut Random, shift: i32, bits: u32) -> Vec<i64> {
         (near as i64) << spare >> spare
     };
     let (x, z) = (numerator(random), numerator(random));
-    vec![x, z, denominator]
+    [x, z, denominator]
 }
 
 fn compare<S: Size>(serial: bool, rounds: u64, count: usize) {
     let name = if serial { "divider_serial_" } else { "divider_" }.to_owned() + S::NAME;
-    let mut bench = Bench::new(&name, &INPUTS, &OUTPUTS);
+    let mut rtl = Model::new(&name);
+    let inputs = ["in_view_x", "in_view_z", "in_denominator"].map(|name| rtl.port(name));
+    let [entry, ground_x, ground_z] =
+        ["out_entry", "out_ground_x", "out_ground_z"].map(|name| rtl.port(name));
     for round in 0..rounds {
         let mut random = Random(round << 32);
         let range = random.below(i64::from(S::STAGES - S::POINT)) as u32;
@@ -99,29 +100,37 @@ fn compare<S: Size>(serial: bool, rounds: u64, count: usize) {
             line.denominator[i] = S::view_word(item[2]);
         }
         unit.run(&mut line, Method::Array);
-        bench.coefficient("eye_x", eye_x);
-        bench.coefficient("eye_z", eye_z);
+        let mut set = |name, value| rtl.set_signed(rtl.port(name), value);
+        set("eye_x", eye_x);
+        set("eye_z", eye_z);
         // As set-up loads it.
-        bench.coefficient("ratio_shift", shift.min((S::WIDTH + bits) as i32 - 2).into());
-        bench.coefficient("ratio_bits", bits.into());
+        set("ratio_shift", shift.min((S::WIDTH + bits) as i32 - 2).into());
+        set("ratio_bits", bits.into());
         let cycles = u64::from(bits) + 3;
         let timing = if serial {
             Timing { work: cycles, latency: 1, depth: 2 }
         } else {
             Timing { work: 1, latency: cycles, depth: cycles as usize + 1 }
         };
-        let (source, sink) = neighbours(round)[round as usize % 4];
-        let passed = bench.pass(&items, source, sink);
-        for (i, (item, found)) in items.iter().zip(&passed).enumerate() {
-            let entry = line.entry[i];
-            // The port is two bits wide and reads as signed.
-            assert_eq!(found.out[0] & 3, entry as i64, "entry of {item:?}, shift {shift}, {bits}");
-            if entry == Entry::Met {
+        let pace = Pace::random(&mut random, count);
+        let put = |rtl: &mut Model, at: Option<usize>| {
+            let words = at.map_or_else(|| [(); 3].map(|()| random.word(S::WIDTH)), |at| items[at]);
+            inputs.iter().zip(words).for_each(|(&port, word)| rtl.set_signed(port, word));
+        };
+        let check = |rtl: &Model, i: usize| {
+            let item = items[i];
+            assert_eq!(
+                rtl.get(entry),
+                line.entry[i] as u64,
+                "{item:?}, shift {shift}, {bits} bits"
+            );
+            if line.entry[i] == Entry::Met {
+                let found = [ground_x, ground_z].map(|port| rtl.signed(port));
                 let expected = [S::bits(line.ground_x[i]), S::bits(line.ground_z[i])];
-                assert_eq!(found.out[1..], expected, "{item:?}, shift {shift}, bits {bits}");
+                assert_eq!(found, expected, "{item:?}, shift {shift}, {bits} bits");
             }
-        }
-        assert_timing(&passed, timing, source, sink);
+        };
+        elastic::run(&mut rtl, &pace, timing, put, check);
     }
 }
 

@@ -4,62 +4,28 @@
 
 mod elastic;
 mod random;
+mod stock;
 
 use std::sync::Arc;
 
 use elastic::Pace;
 use random::Random;
+use stock::{SHADING, Stock, bits, packed, word};
 use terraline::frame::Hit;
 use terraline::plan::Plan;
 use terraline::processor::Processor;
-use terraline::scene::{WordSize, load};
-use terraline::setup::table::SHADER_LATENCY;
+use terraline::scene::load;
 use terraline::setup::{Back, Memory, Setup};
 use terraline::unit::Line;
 use terraline::unit::color::Flat;
 use terraline::unit::shader::{Light, Ramp, TerrainShader};
 use terraline::word::stock::{Narrow, Wide};
-use terraline::word::{Cell, Complete, Lane, Register, Site};
+use terraline::word::{Cell, Lane, Register, Site};
 use terraline_hdl::Model;
 
 /// Entries per unit of the table, as a power of two.
 const RSQRT_LOG2: u32 = 10;
 const TAG: u64 = 0xffff;
-
-/// A world of words that are integers of up to 64 bits.
-trait Stock:
-    Complete<Height: Lane<Int: Into<i64> + TryFrom<i64>>, Tone: Lane<Int: Into<i64> + TryFrom<i64>>>
-{
-    const MODEL: &'static str;
-    const WORDS: WordSize;
-    const WIDTH: u32;
-}
-
-impl Stock for Narrow {
-    const MODEL: &'static str = "shader_narrow";
-    const WORDS: WordSize = WordSize::Narrow;
-    const WIDTH: u32 = 32;
-}
-
-impl Stock for Wide {
-    const MODEL: &'static str = "shader_wide";
-    const WORDS: WordSize = WordSize::Wide;
-    const WIDTH: u32 = 64;
-}
-
-fn word<T: Lane<Int: TryFrom<i64>>>(bits: i64) -> T {
-    let Ok(int) = T::Int::try_from(bits) else { panic!("{bits} is wider than a word") };
-    T::of_int(int)
-}
-
-fn bits<T: Lane<Int: Into<i64>>>(word: T) -> i64 {
-    word.int().into()
-}
-
-fn packed(color: [u8; 3]) -> u64 {
-    let [red, green, blue] = color.map(u64::from);
-    red | green << 8 | blue << 16
-}
 
 /// Drives the coefficient ports and fills the tables.
 fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &TerrainShader<W>) {
@@ -104,7 +70,6 @@ fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &TerrainShader<W>) {
 /// Runs the items of a line, whose colours the emulator has computed, through the module.
 fn compare<W: Stock>(rtl: &mut Model, line: &Line<W>, random: &mut Random) {
     let pace = Pace::random(random, line.len());
-    let timing = (SHADER_LATENCY.into(), SHADER_LATENCY as usize + 1);
     let [hit, surface] = ["in_hit", "in_surface"].map(|name| rtl.port(name));
     let [slope_x, slope_z] = ["in_slope_x", "in_slope_z"].map(|name| rtl.port(name));
     let in_tag = rtl.port("in_tag");
@@ -113,7 +78,7 @@ fn compare<W: Stock>(rtl: &mut Model, line: &Line<W>, random: &mut Random) {
     elastic::run(
         rtl,
         &pace,
-        timing,
+        SHADING,
         |rtl, item| {
             let Some(i) = item else {
                 rtl.set(hit, random.bits() & 3);
@@ -160,7 +125,7 @@ fn looks(random: &mut Random) -> Vec<String> {
 
 fn real_frames<W: Stock>(world: W, seed: u64) {
     let mut random = Random(seed);
-    let mut rtl = Model::new(W::MODEL);
+    let mut rtl = Model::new(&format!("shader_{}", W::NAME));
     let kernels: [&[&str]; 3] =
         [&[], &["kernel.deformation=1", "kernel.shape=hat"], &["surface.height.scale=0.4"]];
     for name in ["overview", "flight", "valley"] {
@@ -287,7 +252,7 @@ fn is_near_rounding<W: Stock>(
 fn hostile<W: Stock>(world: W, seed: u64) {
     const ITEMS: u32 = 2000;
     let mut random = Random(seed);
-    let mut rtl = Model::new(W::MODEL);
+    let mut rtl = Model::new(&format!("shader_{}", W::NAME));
     for _ in 0..40 {
         let shader = hostile_shader(world, &mut random);
         load_coefficients(&mut rtl, &shader);

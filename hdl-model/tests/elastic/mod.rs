@@ -1,9 +1,17 @@
-//! Items through one elastic unit that works one cycle on each: what comes out, and in which cycle
-//! (equation 28), between a source and a sink that take their time.
+//! Items through one elastic unit: what comes out, and in which cycle (equation 28), between a source
+//! and a sink that take their time.
 
 use terraline_hdl::Model;
 
 use crate::random::Random;
+
+/// Work on an item, latency and depth of a unit.
+#[derive(Clone, Copy, Debug)]
+pub struct Timing {
+    pub work: u64,
+    pub latency: u64,
+    pub depth: usize,
+}
 
 /// How source and sink behave.
 #[derive(Clone, Debug)]
@@ -48,14 +56,14 @@ struct Times {
 }
 
 impl Times {
-    fn new(pace: &Pace, latency: u64, depth: usize) -> Self {
+    fn new(pace: &Pace, timing: Timing) -> Self {
         let mut times = Self { taken: Vec::new(), visible: Vec::new(), left: Vec::new() };
         for (item, &arrival) in pace.arrivals.iter().enumerate() {
-            let free = times.taken.last().map_or(0, |before| before + 1);
-            let room = item.checked_sub(depth).map_or(0, |before| times.left[before] + 1);
+            let free = times.taken.last().map_or(0, |before| before + timing.work);
+            let room = item.checked_sub(timing.depth).map_or(0, |before| times.left[before] + 1);
             let taken = arrival.max(free).max(room);
             let behind = times.left.last().map_or(0, |before| before + 1);
-            let visible = (taken + latency).max(behind);
+            let visible = (taken + timing.work - 1 + timing.latency).max(behind);
             let left = (visible..).find(|&cycle| pace.ready(cycle)).unwrap_or(u64::MAX);
             times.taken.push(taken);
             times.visible.push(visible);
@@ -73,14 +81,14 @@ impl Times {
 pub fn run(
     unit: &mut Model,
     pace: &Pace,
-    (latency, depth): (u64, usize),
+    timing: Timing,
     mut put: impl FnMut(&mut Model, Option<usize>),
     mut check: impl FnMut(&Model, usize),
 ) {
     let [reset, in_valid, out_ready] =
         ["reset", "in_valid", "out_ready"].map(|name| unit.port(name));
     let [in_ready, out_valid] = ["in_ready", "out_valid"].map(|name| unit.port(name));
-    let times = Times::new(pace, latency, depth);
+    let times = Times::new(pace, timing);
     unit.set(in_valid, 0);
     unit.set(reset, 1);
     unit.edge();

@@ -26,6 +26,7 @@ module divider_serial #(
   logic signed [W-1:0] denominator;
   logic signed [W:0] remainder_x, remainder_z, next_x, next_z;
   logic [STAGES-1:0] digits_x, digits_z;
+  logic first;  // the next bit is a quotient's first one
   logic bit_x, bit_z;
 
   divider_stage #(
@@ -55,6 +56,7 @@ module divider_serial #(
     else if (out_valid) busy <= 1'b0;
     if (in_valid) begin
       left <= bits;
+      first <= 1'b1;
       denominator <= in_denominator;
       remainder_x <= in_remainder_x;
       remainder_z <= in_remainder_z;
@@ -63,32 +65,14 @@ module divider_serial #(
       out_entry <= in_entry;
     end else if (left != '0) begin
       left <= left - 6'd1;
+      first <= 1'b0;
       remainder_x <= next_x;
       remainder_z <= next_z;
-      digits_x <= {digits_x[STAGES-2:0], bit_x};
-      digits_z <= {digits_z[STAGES-2:0], bit_z};
-    end
-  end
-
-  // The quotient's bias 2^(bits-1) is taken off by inverting its top bit, which is then the sign.
-  logic [W-1:0] extended_x, extended_z;
-  logic [5:0] top;
-  logic sign_x, sign_z;
-  assign extended_x = W'(digits_x);
-  assign extended_z = W'(digits_z);
-  assign top = bits - 6'd1;
-  always_comb begin
-    sign_x = 1'b0;
-    sign_z = 1'b0;
-    for (int b = 0; b < STAGES; b++) begin
-      if (top == 6'(b)) begin
-        sign_x = !digits_x[b];
-        sign_z = !digits_z[b];
-      end
-    end
-    for (int b = 0; b < W; b++) begin
-      out_quotient_x[b] = 6'(b) < top ? extended_x[b] : sign_x;
-      out_quotient_z[b] = 6'(b) < top ? extended_z[b] : sign_z;
+      digits_x <= {digits_x[STAGES-2:0], 1'b0};
+      digits_z <= {digits_z[STAGES-2:0], 1'b0};
+      // The quotient's bias 2^(bits-1) is taken off by inverting its first bit, which is then the sign.
+      out_quotient_x <= first ? {W{!bit_x}} : {out_quotient_x[W-2:0], bit_x};
+      out_quotient_z <= first ? {W{!bit_z}} : {out_quotient_z[W-2:0], bit_z};
     end
   end
 endmodule

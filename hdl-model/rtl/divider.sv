@@ -72,22 +72,23 @@ module divider #(
 
   // First stage: the numerators are aligned to STAGES quotient bits, whatever the number in use. The
   // places depend on coefficients alone and stand in registers.
-  logic signed [8:0] shift;
-  logic to_right;
-  logic [8:0] places;
+  localparam int LEFT = ALIGNED - W;
+  logic signed [8:0] shift, to_right;
+  logic [7:0] places;
   logic signed [ALIGNED-1:0] aligned_x, aligned_z;
   logic signed [W-1:0] denominator;
   logic checking;
 
   assign shift = 9'(ratio_shift) + 9'(STAGES) - $signed({3'b0, ratio_bits});
 
+  assign to_right = 9'(LEFT) - shift;
+
   always_ff @(posedge clock) begin
-    to_right <= shift < 0;
-    places <= shift < 0 ? -shift : shift;
+    places <= to_right < 0 ? '0 : to_right[7:0];
     checking <= enter && !reset;
     if (enter) begin
-      aligned_x <= to_right ? ALIGNED'(in_view_x) >>> places : ALIGNED'(in_view_x) <<< places;
-      aligned_z <= to_right ? ALIGNED'(in_view_z) >>> places : ALIGNED'(in_view_z) <<< places;
+      aligned_x <= $signed({in_view_x, {LEFT{1'b0}}}) >>> places;
+      aligned_z <= $signed({in_view_z, {LEFT{1'b0}}}) >>> places;
       denominator <= in_denominator;
     end
   end

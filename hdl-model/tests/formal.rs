@@ -27,7 +27,7 @@ fn divider_stage_is_a_step_of_a_long_division() {
         let parameters = [("W", width)];
         let proof = combinational("divider_stage_formal", &["divider_stage"], &parameters);
         proof.holds(3, &["cover_one", "cover_minus_d"]);
-        proof.fails_with(("divider_stage", "shifted + divisor", "shifted - divisor"));
+        proof.fails_with(("divider_stage", "numerator_bit, 1'b1}", "numerator_bit, 1'b0}"));
         proof.fails_with(("divider_stage", "= !next[W]", "= !remainder[W]"));
     }
 }

@@ -78,8 +78,9 @@ pub fn route(target: Target, scratch: &Scratch, limit: Duration) -> Result<Route
         Some(_) => {
             let log = scratch.read("route.log")?;
             let why = log.lines().find(|line| line.contains("ERROR"));
-            // What the placer says where cells are more than places.
-            let full = why.is_some_and(|why| why.contains("Failed to expand region"));
+            // What the placers say where cells are more than places.
+            let full = ["Failed to expand region", "no BELs remaining"];
+            let full = why.is_some_and(|why| full.iter().any(|full| why.contains(full)));
             let why = if full { Some("does not fit with its shell") } else { why };
             Ok(Routed::Not(why.unwrap_or("refused without a reason").trim().to_owned()))
         }

@@ -65,8 +65,12 @@ fn units_of_length_and_angle() {
         SHORT,
         &[1, 1, 0, 3, 1024, 0, 1, 1, 3076, 0, 1, 32767, 3077, 34736, 1, 1],
     );
-    let file = file.with_doubles(34736, &[9.0, 2.5]);
-    let own = place(&file).georeference;
+    let own = place(&file.clone().with_doubles(34736, &[9.0, 2.5])).georeference;
+    refused(
+        &file.with_doubles(34736, &[9.0, 1.7e308]).with_doubles(33550, &[1e9, 1e9, 0.0]).bytes(),
+        "u.tif",
+        &["beyond all numbers"],
+    );
     assert_eq!(own.coordinates, Coordinates::Lengths { unit_m: 2.5 });
     refused(
         &keys(tied([0.0; 6], [1.0; 3]), &[(1024, 1), (3076, 9999)]).bytes(),
@@ -126,6 +130,8 @@ fn grids_that_make_no_sense() {
         (tied([0.0; 6], [f64::NAN, 1.0, 0.0]), &["beyond all numbers"]),
         (tied([0.0, 0.0, 0.0, f64::INFINITY, 0.0, 0.0], [1.0; 3]), &["beyond all numbers"]),
         (keys(tied([0.0, 0.0, 0.0, 0.0, 95.0, 0.0], [1.0; 3]), &geographic), &["latitudes"]),
+        // Degrees whose metres are beyond all numbers: found by fuzzing.
+        (keys(tied([0.0; 6], [1e306, 0.1, 0.0]), &geographic), &["cells of", "degrees"]),
         (TiffFile::small().with_doubles(34264, &[1.0, 0.0, 0.0]), &["fewer than 16"]),
         (TiffFile::small().with_doubles(33922, &[1.0]).with_doubles(33550, &[1.0]), &["too few"]),
         (

@@ -184,8 +184,16 @@ pub(super) fn read(
     }
     let cell = step.abs();
     let far = tie + DVec2::new(cell.x * image.columns as f64, -cell.y * image.rows as f64);
-    if !(tie.is_finite() && far.is_finite() && cell.min_element() > 0.0) {
+    let metres = match coordinates {
+        Coordinates::Lengths { unit_m } => cell * unit_m,
+        Coordinates::Degrees | Coordinates::Unknown => cell,
+    };
+    let counts = tie.is_finite() && far.is_finite() && metres.is_finite();
+    if !(counts && cell.min_element() > 0.0) {
         return Err(damaged("it puts nodes beyond all numbers".to_owned()));
+    }
+    if coordinates == Coordinates::Degrees && cell.x > 360.0 {
+        return Err(damaged(format!("it claims cells of {} degrees", shown(cell.x))));
     }
     // A hair beyond a pole is the half cell by which areas reach over.
     if coordinates == Coordinates::Degrees && (tie.y > 91.0 || far.y < -91.0) {

@@ -69,6 +69,7 @@ fn mistakes_are_located() {
         (change("cellsize 10\n", "cellsize 10\ndx 3\n"), &["both cellsize"]),
         (change("cellsize 10", "cellsize 0"), &["0 x 0"]),
         (change("cellsize 10", "cellsize -3"), &["-3"]),
+        (change("cellsize 10", "cellsize 1e308"), &["beyond all numbers"]),
         (change("yllcorner 200\n", "yllcorner 200\nyllcenter 3\n"), &["both yllcorner"]),
         (change("xllcorner 100\n", ""), &["no `xllcorner`"]),
         (change("ncols 3", "ncols 3.5"), &["ncols is 3.5"]),

@@ -71,6 +71,9 @@ pub fn try_all(bytes: &[u8], name: &str) {
                 if let Some(cell) = file.georeference.cell_m(columns, rows) {
                     assert!(cell.is_finite() && cell.min_element() >= 0.0, "{cell}");
                 }
+                if let Some(far) = file.georeference.far_corner(columns, rows) {
+                    assert!(far.is_finite(), "{far}");
+                }
                 for note in &file.notes {
                     assert_eq!(note.lines().count(), 1, "{note}");
                     assert!(note.len() < 600, "{note}");

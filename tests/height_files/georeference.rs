@@ -130,6 +130,7 @@ fn grids_that_make_no_sense() {
         (tied([0.0; 6], [f64::NAN, 1.0, 0.0]), &["beyond all numbers"]),
         (tied([0.0, 0.0, 0.0, f64::INFINITY, 0.0, 0.0], [1.0; 3]), &["beyond all numbers"]),
         (keys(tied([0.0, 0.0, 0.0, 0.0, 95.0, 0.0], [1.0; 3]), &geographic), &["latitudes"]),
+        (keys(tied([0.0; 6], [1.0, 60.0, 0.0]), &geographic), &["latitudes from -150"]),
         // Degrees whose metres are beyond all numbers: found by fuzzing.
         (keys(tied([0.0; 6], [1e306, 0.1, 0.0]), &geographic), &["cells of", "degrees"]),
         (TiffFile::small().with_doubles(34264, &[1.0, 0.0, 0.0]), &["fewer than 16"]),

@@ -211,6 +211,13 @@ impl Header {
             pixel_is: Some(if self.x_center.is_some() { PixelIs::Point } else { PixelIs::Area }),
             ..Georeference::unknown()
         };
+        if let Some(reason) = georeference.nonsense(columns, rows) {
+            return Err(MapError::new(
+                name,
+                format!("its header cannot be used: {reason}"),
+                "give corners and cells of a map on the Earth",
+            ));
+        }
         notes.extend(georeference.assume(columns, rows));
         Ok(georeference)
     }

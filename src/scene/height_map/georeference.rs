@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 
+use crate::scene::tree::shown;
+
 /// Semi-major axis of the WGS84 ellipsoid in metres.
 const SEMI_MAJOR_M: f64 = 6_378_137.0;
 
@@ -78,6 +80,30 @@ impl Georeference {
             height_unit_m: None,
             pixel_is: None,
         }
+    }
+
+    /// Why a map cannot lie there, where it cannot: places and cells that are no numbers, or that are
+    /// nowhere on the Earth.
+    pub(super) fn nonsense(&self, columns: usize, rows: usize) -> Option<String> {
+        let (origin, far, cell) = (self.origin?, self.far_corner(columns, rows)?, self.cell?);
+        let metres = match self.coordinates {
+            Coordinates::Lengths { unit_m } => cell * unit_m,
+            Coordinates::Degrees | Coordinates::Unknown => cell,
+        };
+        let are_numbers = origin.is_finite() && far.is_finite() && metres.is_finite();
+        if !are_numbers || cell.min_element() <= 0.0 {
+            return Some("it puts nodes beyond all numbers".to_owned());
+        }
+        if self.coordinates != Coordinates::Degrees {
+            return None;
+        }
+        if cell.x > 360.0 {
+            return Some(format!("it claims cells of {} degrees", shown(cell.x)));
+        }
+        // A hair beyond a pole is the half cell by which areas reach over.
+        let (north, south) = (shown(origin.y), shown(far.y));
+        (origin.y > 91.0 || far.y < -91.0)
+            .then(|| format!("it claims latitudes from {south} to {north} degrees"))
     }
 
     /// Where the file gives a grid but not what its coordinates count: degrees if they look like

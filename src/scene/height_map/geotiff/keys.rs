@@ -8,7 +8,6 @@ use super::super::MapError;
 use super::super::georeference::{Coordinates, Georeference, PixelIs};
 use super::directory::{Directory, Tiff, tag};
 use super::image::Image;
-use crate::scene::tree::shown;
 
 /// Numbers of the keys that are read.
 mod key {
@@ -183,28 +182,11 @@ pub(super) fn read(
         notes.push("the rows run from south to north: turned over".to_owned());
     }
     let cell = step.abs();
-    let far = tie + DVec2::new(cell.x * image.columns as f64, -cell.y * image.rows as f64);
-    let metres = match coordinates {
-        Coordinates::Lengths { unit_m } => cell * unit_m,
-        Coordinates::Degrees | Coordinates::Unknown => cell,
-    };
-    let counts = tie.is_finite() && far.is_finite() && metres.is_finite();
-    if !(counts && cell.min_element() > 0.0) {
-        return Err(damaged("it puts nodes beyond all numbers".to_owned()));
-    }
-    if coordinates == Coordinates::Degrees && cell.x > 360.0 {
-        return Err(damaged(format!("it claims cells of {} degrees", shown(cell.x))));
-    }
-    // A hair beyond a pole is the half cell by which areas reach over.
-    if coordinates == Coordinates::Degrees && (tie.y > 91.0 || far.y < -91.0) {
-        return Err(damaged(format!(
-            "it claims latitudes from {} to {} degrees",
-            shown(far.y),
-            shown(tie.y)
-        )));
-    }
     georeference.origin = Some(tie);
     georeference.cell = Some(cell);
+    if let Some(reason) = georeference.nonsense(image.columns, image.rows) {
+        return Err(damaged(reason));
+    }
     notes.extend(georeference.assume(image.columns, image.rows));
     Ok((georeference, south_up))
 }

@@ -75,7 +75,7 @@ impl Chain {
                 }
             }
         }
-        let answer = memory_latency.max(KERNEL_LATENCY) + LERP_LATENCY + SLOPE_LATENCY;
+        let answer = nodes_latency(memory_latency) + LERP_LATENCY + SLOPE_LATENCY;
         let (mut stepper, mut interpolator) = (None, None);
         let (mut reads, mut void_bits) = (1, false);
         match &setup.back {
@@ -103,7 +103,7 @@ impl Chain {
     /// through the interpolation in groups, halvings wait for each other. With holes, the bits of
     /// the two places between which a hit lies are read once more.
     pub fn stepper_work(&self, work: Work) -> u32 {
-        let answer = self.memory_latency.max(KERNEL_LATENCY) + LERP_LATENCY;
+        let answer = nodes_latency(self.memory_latency) + LERP_LATENCY;
         let rim = if self.void_bits { 2 * self.reads + answer } else { 0 };
         RAY_START
             + work.trials * (1 + self.memory_latency)
@@ -123,6 +123,11 @@ impl Chain {
             self.serial.filter(|&(divider, _)| divider == stage).map_or(1, |(_, cycles)| cycles)
         }
     }
+}
+
+/// Cycles from a place to its nodes and their weights: N of docs/cycles.md.
+fn nodes_latency(memory_latency: u32) -> u32 {
+    memory_latency.max(KERNEL_LATENCY)
 }
 
 /// Who takes finished pixels from the frame.

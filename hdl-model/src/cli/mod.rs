@@ -47,7 +47,7 @@ enum Command {
         #[arg(long, value_name = "NAME")]
         only: Option<String>,
         /// Time limit of each place and route, seconds.
-        #[arg(long, value_name = "SECONDS", default_value_t = 900)]
+        #[arg(long, value_name = "SECONDS", default_value_t = 3600)]
         limit: u64,
     },
 }

@@ -4,9 +4,9 @@
 // A token is a place. It is read in R cycles, 1 for 2×2 nodes and 4 for 3×3, whose requester holds
 // place and tag; the place reaches the memory in the same cycle. With the last read in cycle c, the
 // answer comes in cycle c + max(M, KERNEL_LATENCY) + LERP_LATENCY, with slopes two cycles later.
-// Tokens may follow each other without a gap and never stall. One that is left before its last read, by dropping
-// request_valid or by request_first of another, has no answer. Reset forgets reads under way; the
-// memory must forget them too.
+// Tokens may follow each other without a gap and never stall. One that is left before its last read,
+// by dropping request_valid or by request_first of another, has no answer. Reset forgets reads under
+// way; the memory must forget them too.
 //
 // Assumed, as the plan proves it: cells fit CELL bits; maps have at most 2^(CELL-1) nodes a side;
 // the kernel's weights lie in [0, 1], its slopes in (−4, 4); differences of the nodes of a patch

@@ -1,7 +1,7 @@
 // One axis of a ray's walk: three accumulators and the place ahead (equations 19, 21 and 22).
 //
-// `place` is the last place known to be clear. `follow` is the one whose answer comes next: a step behind
-// `place`, or while a hit is halved the middle between `place` and it. `issue` is the next sample of a
+// `place` is the last place known to be clear. `follow` is the one whose answer comes next: a step further
+// than `place`, or while a hit is halved the middle between `place` and it. `issue` is the next sample of a
 // group that streams through the interpolation. What decides late in a cycle (`moves`, `hits`) chooses
 // between sums that are made beside it.
 //
@@ -28,7 +28,7 @@ module ray_axis #(
     output logic signed [W-1:0] place,      // clear
     output logic signed [W-1:0] follow,     // answered next
     output logic signed [W-1:0] issue,      // read next
-    output logic signed [W-1:0] ahead,      // behind the jump that is tried
+    output logic signed [W-1:0] ahead,      // at the end of the jump that is tried
     output logic signed [W-1:0] met         // the last hit
 );
   logic signed [W-1:0] half, half_step, stay, lead, go;

@@ -39,10 +39,9 @@ fn cosim_reports_equality_and_cycles() {
 
 #[test]
 fn a_trace_is_small_and_has_a_save_file() {
-    let folder = std::env::temp_dir().join(format!("terraline-trace-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
+    let folder = tempfile::tempdir().expect("a folder");
     let trace = |name: &str, pixels: &str| {
-        let path = folder.join(name);
+        let path = folder.path().join(name);
         let file = path.to_str().expect("UTF-8");
         let output =
             run(&["cosim", "plane", "--size", "32x24", "--trace", file, "--trace-pixels", pixels]);
@@ -52,7 +51,6 @@ fn a_trace_is_small_and_has_a_save_file() {
         std::fs::metadata(&path).expect("a trace").len()
     };
     let (few, all) = (trace("few.fst", "400..420"), trace("all.fst", "0..768"));
-    std::fs::remove_dir_all(&folder).expect("the folder goes");
     assert!(few > 0 && 2 * few < all, "{few} and {all} bytes");
 }
 

@@ -6,6 +6,7 @@ mod random;
 
 use elastic::{Pace, Timing};
 use random::Random;
+use terraline::setup::table::DIVIDER_ENDS;
 use terraline::unit::Line;
 use terraline::unit::divider::{Divider, Method};
 use terraline::unit::line::Entry;
@@ -106,7 +107,7 @@ fn compare<S: Size>(serial: bool, rounds: u64, count: usize) {
         // As set-up loads it.
         set("ratio_shift", shift.min((S::WIDTH + bits) as i32 - 2).into());
         set("ratio_bits", bits.into());
-        let cycles = u64::from(bits) + 3;
+        let cycles = u64::from(bits + DIVIDER_ENDS);
         let timing = if serial {
             Timing { work: cycles, latency: 1, depth: 2 }
         } else {

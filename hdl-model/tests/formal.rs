@@ -7,7 +7,9 @@ mod proof;
 
 use std::collections::BTreeSet;
 
-use proof::{Proof, Twin, is_possible, yosys};
+use proof::{Proof, Twin, yosys};
+use terraline_hdl::netlist::yosys::missing;
+use terraline_hdl::skipped_without;
 
 /// A harness over modules without registers.
 fn combinational<'a>(
@@ -20,7 +22,7 @@ fn combinational<'a>(
 
 #[test]
 fn divider_stage_is_a_step_of_a_long_division() {
-    if !is_possible() {
+    if skipped_without(missing()) {
         return;
     }
     for width in [32, 64] {
@@ -51,7 +53,7 @@ fn parameters((a, b, signed): Shape) -> [(&'static str, i64); 3] {
 
 #[test]
 fn products_are_products() {
-    if !is_possible() {
+    if skipped_without(missing()) {
         return;
     }
     let mut products = BTreeSet::new();
@@ -93,7 +95,7 @@ fn products_are_products() {
 
 #[test]
 fn wrong_products_are_found() {
-    if !is_possible() {
+    if skipped_without(missing()) {
         return;
     }
     let join = "((A + B)'(part_1) <<< B0)";
@@ -154,7 +156,7 @@ fn multipliers(wide: i64, terrain: i64, stretch: i64) -> (BTreeSet<Shape>, BTree
 
 #[test]
 fn steps_cover_at_most_their_cells() {
-    if !is_possible() {
+    if skipped_without(missing()) {
         return;
     }
     for (width, point) in [(32, 20), (64, 24)] {
@@ -169,7 +171,7 @@ fn steps_cover_at_most_their_cells() {
 
 /// Proves the bounds of some levels.
 fn bounds_cover_their_reach(cell_bits: i64, levels: impl Iterator<Item = i64>) {
-    if !is_possible() {
+    if skipped_without(missing()) {
         return;
     }
     for level in levels {
@@ -233,7 +235,7 @@ const STEPPER: Proof = Proof {
 
 #[test]
 fn jumps_stay_within_the_remaining_samples() {
-    if !is_possible() {
+    if skipped_without(missing()) {
         return;
     }
     let proof = Proof { parameters: &[("PART", 0), ("JUMP", 4)], ..STEPPER };
@@ -244,7 +246,7 @@ fn jumps_stay_within_the_remaining_samples() {
 
 #[test]
 fn jumps_pass_no_sample_below_the_bound() {
-    if !is_possible() {
+    if skipped_without(missing()) {
         return;
     }
     let proof = Proof { parameters: &[("PART", 1), ("JUMP", 4)], cycles: Some(1), ..STEPPER };

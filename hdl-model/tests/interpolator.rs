@@ -10,7 +10,7 @@ use std::sync::Arc;
 use machines::{Bits, heights, place, raw, rom};
 use random::Random;
 use terraline::scene::KernelShape;
-use terraline::setup::table::{KERNEL_LATENCY, LERP_LATENCY};
+use terraline::setup::table::{KERNEL_LATENCY, LERP_LATENCY, SLOPE_LATENCY};
 use terraline::unit::height_memory::Edge;
 use terraline::unit::interpolator::{Form, Interpolator};
 use terraline::unit::stepper::SurfaceUnit;
@@ -144,7 +144,7 @@ impl<W: Bits> Bench<W> {
     /// Streams tokens; requires every answer in its cycle, and no other one.
     fn stream(&mut self, tokens: &[Token], memory_latency: usize) -> usize {
         let reads = if self.emulator.form == Form::Stretch { 4 } else { 1 };
-        let latency = LERP_LATENCY + if self.slopes { 2 } else { 0 };
+        let latency = LERP_LATENCY + if self.slopes { SLOPE_LATENCY } else { 0 };
         let rtl = &self.rtl;
         let [
             request_valid,

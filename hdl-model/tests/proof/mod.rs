@@ -23,19 +23,6 @@ pub struct Proof<'a> {
 /// A change of the RTL that makes a proof fail: module, text that occurs once, its replacement.
 pub type Twin<'a> = (&'a str, &'a str, &'a str);
 
-/// Whether Yosys is there; says so if not. With `REQUIRE_RTL=1` it must be.
-pub fn is_possible() -> bool {
-    let missing = match Command::new("yosys").arg("-V").output() {
-        Ok(done) if done.status.success() => return true,
-        Ok(done) => format!("yosys -V: {}", done.status),
-        Err(error) => format!("yosys cannot be run ({error}); install it"),
-    };
-    let required = std::env::var("REQUIRE_RTL").is_ok_and(|value| value == "1");
-    assert!(!required, "REQUIRE_RTL=1, but {missing}");
-    println!("skipped: {missing}");
-    false
-}
-
 /// Runs a script of Yosys in the package's folder.
 pub fn yosys(script: &str) -> (bool, String) {
     let done = Command::new("yosys")

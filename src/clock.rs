@@ -12,27 +12,23 @@
 //! to the one in which the frame takes the last pixel.
 #![deny(clippy::float_arithmetic)]
 
-use crate::scene::{Machine, RatioForm};
-use crate::setup::table::{
-    DIVIDER_ENDS, KERNEL_LATENCY, LERP_LATENCY, RAY_END, RAY_START, SHADER_LATENCY, SLOPE_LATENCY,
-};
-use crate::setup::{Back, Setup};
-use crate::unit::Line;
-use crate::unit::interpolator::Form;
+use crate::setup::Setup;
 use crate::unit::line::Work;
+use crate::unit::{Line, Timing};
 use crate::word::format::mix;
 use crate::word::{Complete, World};
 
-/// One unit in the chain.
+/// One stage of the chain: a unit, or several that work on an item together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stage {
-    /// Unit.
+    /// Name.
     pub name: &'static str,
-    /// L: cycles from its last cycle of work on an item to the item's arrival at the next unit.
-    pub latency: u32,
-    /// D: items that it holds, pipeline and queue together.
-    pub depth: u32,
+    /// Its cycles.
+    pub timing: Timing,
 }
+
+/// The frame takes a pixel in the cycle in which it comes, and holds none.
+const FRAME: Stage = Stage { name: "frame", timing: Timing { depth: 1, ..Timing::pipeline(1, 0) } };
 
 /// What a unit did over all items.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,91 +39,30 @@ pub struct Occupancy {
     pub stalled: u64,
 }
 
-/// The chain of fitted units and the cycles of one item's work in each.
-#[derive(Clone, Debug)]
+/// The stages of a machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Chain {
-    /// Units in the order of the data flow; the last one is the frame.
+    /// Stages in the order of the data flow; the last one is the frame.
     pub stages: Vec<Stage>,
-    stepper: Option<usize>,
-    interpolator: Option<usize>,
-    /// The divider's place and its cycles of work, where it takes more than one.
-    serial: Option<(usize, u32)>,
-    memory_latency: u32,
-    reads: u32,
-    void_bits: bool,
 }
 
 impl Chain {
-    /// The chain of a set-up in a machine. `idle` units pass items on in one cycle.
-    pub fn new<W: Complete>(setup: &Setup<W>, machine: &Machine, idle: bool) -> Self {
-        let memory_latency = machine.memory_latency;
-        let mut stages = vec![Stage { name: "projector", latency: 1, depth: 2 }];
-        let mut serial = None;
-        if let Some(divider) = &setup.divider {
-            let cycles = divider.bits + DIVIDER_ENDS;
-            match machine.ratio {
-                RatioForm::Array => {
-                    stages.push(Stage { name: "divider", latency: cycles, depth: cycles + 1 });
-                }
-                RatioForm::Serial => {
-                    serial = Some((stages.len(), cycles));
-                    stages.push(Stage { name: "divider", latency: 1, depth: 2 });
-                }
-            }
-        }
-        let answer = nodes_latency(memory_latency) + LERP_LATENCY + SLOPE_LATENCY;
-        let (mut stepper, mut interpolator) = (None, None);
-        let (mut reads, mut void_bits) = (1, false);
-        match &setup.back {
-            Back::Terrain(units) => {
-                // 3×3 nodes take four cycles from four banks.
-                reads = if units.interpolator.form == Form::Stretch { 4 } else { 1 };
-                void_bits = units.interpolator.heights.has_voids();
-                stepper = Some(stages.len());
-                stages.push(Stage { name: "stepper", latency: 1, depth: 2 });
-                interpolator = Some(stages.len());
-                stages.push(Stage { name: "interpolator", latency: answer, depth: answer + 1 });
-            }
-            Back::Plane(_) if idle => {
-                stages.push(Stage { name: "stepper", latency: 1, depth: 2 });
-                stages.push(Stage { name: "interpolator", latency: answer, depth: answer + 1 });
-            }
-            Back::Plane(_) => {}
-        }
-        stages.push(Stage { name: "shader", latency: SHADER_LATENCY, depth: SHADER_LATENCY + 1 });
-        stages.push(Stage { name: "frame", latency: 0, depth: 1 });
-        Self { stages, stepper, interpolator, serial, memory_latency, reads, void_bits }
+    /// The chain of a set-up.
+    pub fn new<W: Complete>(setup: &Setup<W>) -> Self {
+        let stage = |unit: &dyn crate::unit::Unit<W>| Stage {
+            name: unit.description().stage,
+            timing: unit.timing(setup.memory_latency),
+        };
+        let mut stages: Vec<Stage> = setup.chain().into_iter().map(stage).collect();
+        stages.dedup();
+        stages.push(FRAME);
+        Self { stages }
     }
 
-    /// Cycles of the stepper's work on a pixel: every trial waits for the pyramid, samples stream
-    /// through the interpolation in groups, halvings wait for each other. With holes, the bits of
-    /// the two places between which a hit lies are read once more.
-    pub fn stepper_work(&self, work: Work) -> u32 {
-        let answer = nodes_latency(self.memory_latency) + LERP_LATENCY;
-        let rim = if self.void_bits { 2 * self.reads + answer } else { 0 };
-        RAY_START
-            + work.trials * (1 + self.memory_latency)
-            + work.samples * self.reads
-            + work.groups * answer
-            + work.halvings * (self.reads + answer)
-            + work.hits * (RAY_END + rim)
+    /// A stage by its name.
+    pub fn stage(&self, name: &str) -> Option<Stage> {
+        self.stages.iter().copied().find(|stage| stage.name == name)
     }
-
-    /// Cycles of a unit's work on a pixel.
-    pub fn work(&self, stage: usize, work: Work) -> u32 {
-        if Some(stage) == self.stepper {
-            self.stepper_work(work)
-        } else if Some(stage) == self.interpolator {
-            self.reads
-        } else {
-            self.serial.filter(|&(divider, _)| divider == stage).map_or(1, |(_, cycles)| cycles)
-        }
-    }
-}
-
-/// Cycles from a place to its nodes and their weights: N of docs/cycles.md.
-fn nodes_latency(memory_latency: u32) -> u32 {
-    memory_latency.max(KERNEL_LATENCY)
 }
 
 /// Who takes finished pixels from the frame.
@@ -180,7 +115,7 @@ impl Clock {
     /// A clock at start.
     pub fn new(chain: Chain) -> Self {
         let ring = |depth: u32| Ring { times: vec![0; depth as usize], at: 0 };
-        let depths = std::iter::once(1).chain(chain.stages.iter().map(|stage| stage.depth));
+        let depths = std::iter::once(1).chain(chain.stages.iter().map(|stage| stage.timing.depth));
         Self {
             taken: depths.take(chain.stages.len()).map(ring).collect(),
             free: vec![0; chain.stages.len()],
@@ -203,18 +138,18 @@ impl Clock {
         let count = self.chain.stages.len();
         let mut ready = 0;
         for unit in 0..count {
-            let stage = self.chain.stages[unit];
+            let timing = self.chain.stages[unit].timing;
             let here = ready.max(self.free[unit]);
             // The next unit's ring holds D_u times: its oldest is that of item i − D_u.
             let room = match self.taken.get(unit + 1) {
-                Some(ring) if self.items >= u64::from(stage.depth) => ring.times[ring.at] + 1,
+                Some(ring) if self.items >= u64::from(timing.depth) => ring.times[ring.at] + 1,
                 _ => 0,
             };
             let mut entered = here.max(room);
             while unit + 1 == count && !self.sink.is_ready(entered) {
                 entered += 1;
             }
-            let cycles = self.chain.work(unit, work);
+            let cycles = timing.work.of(work);
             let occupancy = &mut self.occupancy[unit];
             occupancy.busy += u64::from(cycles);
             occupancy.stalled += entered - here;
@@ -222,7 +157,7 @@ impl Clock {
             let ring = &mut self.taken[unit];
             ring.times[ring.at] = entered;
             ring.at = (ring.at + 1) % ring.times.len();
-            ready = entered + u64::from(cycles) - 1 + u64::from(stage.latency);
+            ready = entered + u64::from(cycles) - 1 + u64::from(timing.latency);
         }
         self.items += 1;
         self.last = ready + 1;

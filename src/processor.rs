@@ -3,15 +3,15 @@
 #![deny(clippy::float_arithmetic)]
 
 use crate::setup::Setup;
-use crate::unit::Line;
-use crate::unit::divider::Method;
 use crate::unit::projector::LineStart;
+use crate::unit::{Line, Unit};
 use crate::word::Complete;
 
 /// Walks over the lines of a frame in scan order.
 #[derive(Debug)]
 pub struct Processor<'a, W: Complete> {
     setup: &'a Setup<W>,
+    chain: Vec<&'a dyn Unit<W>>,
     start: LineStart<W>,
     next: u32,
 }
@@ -19,7 +19,7 @@ pub struct Processor<'a, W: Complete> {
 impl<'a, W: Complete> Processor<'a, W> {
     /// A processor at the first line.
     pub fn new(setup: &'a Setup<W>) -> Self {
-        Self { setup, start: setup.projector.first_line(), next: 0 }
+        Self { setup, chain: setup.chain(), start: setup.projector.first_line(), next: 0 }
     }
 
     /// Wires for all columns of a line.
@@ -32,26 +32,29 @@ impl<'a, W: Complete> Processor<'a, W> {
         if self.next >= self.setup.lines {
             return false;
         }
-        line.number = self.next;
-        let setup = self.setup;
-        setup.projector.run(&self.start, line);
-        if let Some(divider) = &setup.divider {
-            divider.run(line, Method::Array);
+        self.begin(line);
+        for unit in &self.chain {
+            unit.run(line);
         }
-        setup.run_back(line);
         self.skip_line();
         true
+    }
+
+    /// Puts the next line on wires, as the raster scan hands it to the projector.
+    pub fn begin(&self, line: &mut Line<W>) {
+        line.number = self.next;
+        line.start = self.start;
+    }
+
+    /// The units, in their order.
+    pub fn chain(&self) -> &[&'a dyn Unit<W>] {
+        &self.chain
     }
 
     /// Moves on to the next line without drawing this one: the line accumulators alone.
     pub fn skip_line(&mut self) {
         self.setup.projector.next_line(&mut self.start);
         self.next += 1;
-    }
-
-    /// The accumulators at the first column of the next line.
-    pub fn line_start(&self) -> &LineStart<W> {
-        &self.start
     }
 
     /// The line that [`Processor::run_line`] draws next.

@@ -8,7 +8,7 @@ use crate::frame::Hit;
 use crate::plan::geometry::{LinearScalar, LinearVector};
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanePlan};
-use crate::scene::{Colors, Halvings, Plane, Scene};
+use crate::scene::{Colors, Halvings, Plane, RatioForm, Scene};
 use crate::unit::checker::Checker;
 use crate::unit::color::Flat;
 use crate::unit::divider::Divider;
@@ -119,6 +119,7 @@ impl Coefficients {
     pub fn divider<W: Open + Dividing>(
         &self,
         world: &W,
+        scene: &Scene,
         plan: &Plan,
     ) -> Result<Option<Divider<W>>, SetupError> {
         if !plan.fitted.divider {
@@ -132,13 +133,19 @@ impl Coefficients {
         let range = quotient_range(world, range);
         let ratio = |register| Ratio { exponent, range, format: world.ground(register) };
         let ground = |value, register| load(value, register, world.ground(register));
-        let point = world.fixed(Register::GroundX).map_or(0, |format| format.point);
+        let point = |register| world.fixed(register).map_or(0, |format| format.point);
+        let axes = [(Register::ViewX, Register::GroundX), (Register::ViewZ, Register::GroundZ)];
         Ok(Some(Divider {
             eye_x: ground(x, Register::GroundX)?,
             eye_z: ground(z, Register::GroundZ)?,
             ratio_x: ratio(Register::GroundX),
             ratio_z: ratio(Register::GroundZ),
-            bits: range + point + 1,
+            shifts: axes.map(|(numerator, quotient)| {
+                let places = point(quotient) + point(Register::Denominator);
+                exponent + places as i32 - point(numerator) as i32
+            }),
+            bits: axes.map(|(_, quotient)| range + point(quotient) + 1),
+            serial: scene.machine.ratio == RatioForm::Serial,
         }))
     }
 }
@@ -179,6 +186,7 @@ pub(super) fn stepper<W: Open>(
     scene: &Scene,
     walk: &WalkPlan,
     memory: &Memory<W>,
+    surface: Interpolator<W>,
 ) -> Result<Stepper<W>, SetupError> {
     let ground = |value, register| load(value, register, world.ground(register));
     let height = |value| load(value, Register::RayY, world.height(Register::RayY));
@@ -214,6 +222,7 @@ pub(super) fn stepper<W: Open>(
         format_x: world.ground(Register::GroundX),
         format_z: world.ground(Register::GroundZ),
         format_y: world.height(Register::RayY),
+        surface,
     })
 }
 

@@ -18,7 +18,7 @@ use crate::scene::{Scene, Surface};
 use crate::unit::checker::Checker;
 use crate::unit::divider::Divider;
 use crate::unit::interpolator::Interpolator;
-use crate::unit::line::Line;
+use crate::unit::{Idle, Line, Unit, interpolator, stepper};
 use crate::unit::projector::Projector;
 use crate::unit::shader::TerrainShader;
 use crate::unit::stepper::{Stepper, SurfaceUnit};
@@ -84,7 +84,17 @@ pub struct Setup<W: World> {
     pub divider: Option<Divider<W>>,
     /// What follows.
     pub back: Back<W>,
+    /// Units of another kind of surface are fitted, and idle.
+    pub idle: bool,
+    /// Cycles from an address to the memory's answer.
+    pub memory_latency: u32,
 }
+
+/// Units that a full machine has though a plane needs none of them.
+const IDLE: [Idle; 2] = [
+    Idle { description: &stepper::DESCRIPTION, timing: |latency| stepper::timing(1, false, latency) },
+    Idle { description: &interpolator::DESCRIPTION, timing: |latency| interpolator::timing(1, latency) },
+];
 
 impl<W: Complete> Setup<W> {
     /// Loads the registers of one frame.
@@ -100,9 +110,10 @@ impl<W: Complete> Setup<W> {
         let coefficients = coefficients::Coefficients::new(plan);
         let back = match (&scene.surface, &plan.ground, memory) {
             (Surface::Terrain(_), Ground::Terrain(walk), Some(memory)) => {
-                let stepper = coefficients::stepper(&world, scene, walk, memory)?;
                 let interpolator = coefficients::interpolator(&world, plan, walk, memory)?;
-                refuse_eye_under_ground(walk, &stepper, &interpolator)?;
+                let surface = interpolator.clone();
+                let stepper = coefficients::stepper(&world, scene, walk, memory, surface)?;
+                refuse_eye_under_ground(walk, &stepper)?;
                 let shader = coefficients::terrain_shader(&world, scene, plan, walk, memory)?;
                 Back::Terrain(Box::new(TerrainUnits {
                     stepper,
@@ -121,29 +132,37 @@ impl<W: Complete> Setup<W> {
             columns: plan.geometry.columns,
             lines: plan.geometry.lines,
             projector: coefficients.projector(&world, plan)?,
-            divider: coefficients.divider(&world, plan)?,
+            divider: coefficients.divider(&world, scene, plan)?,
             back,
+            idle: plan.fitted.idle,
+            memory_latency: scene.machine.memory_latency,
         })
     }
 }
 
-impl<W: Interpolating + Shading> TerrainUnits<W> {
-    /// Runs the units behind the stepper on a line.
-    pub fn shade(&self, line: &mut Line<W>) {
-        self.interpolator.run(line);
-        self.shader.run(line);
+impl<W: Complete> Setup<W> {
+    /// All units in the order of the data flow.
+    pub fn chain(&self) -> Vec<&dyn Unit<W>> {
+        let mut units: Vec<&dyn Unit<W>> = vec![&self.projector];
+        units.extend(self.divider.iter().map(|divider| divider as &dyn Unit<W>));
+        units.extend(self.back.units(self.idle));
+        units
     }
 }
 
-impl<W: Interpolating + Shading> Setup<W> {
-    /// Runs the units behind the divider on a line.
-    pub fn run_back(&self, line: &mut Line<W>) {
-        match &self.back {
-            Back::Terrain(units) => {
-                units.stepper.run(line, &units.interpolator);
-                units.shade(line);
+impl<W: Interpolating + Shading> Back<W> {
+    /// The units behind the divider, with those that are idle.
+    pub fn units(&self, idle: bool) -> Vec<&dyn Unit<W>> {
+        match self {
+            Self::Terrain(units) => {
+                let mut all: Vec<&dyn Unit<W>> = vec![&units.stepper, &units.interpolator];
+                all.extend(units.shader.units());
+                all
             }
-            Back::Plane(checker) => checker.run(line),
+            Self::Plane(checker) => {
+                let idle = if idle { &IDLE[..] } else { &[] };
+                idle.iter().map(|unit| unit as &dyn Unit<W>).chain([checker as _]).collect()
+            }
         }
     }
 }
@@ -151,13 +170,12 @@ impl<W: Interpolating + Shading> Setup<W> {
 fn refuse_eye_under_ground<W: Interpolating + Open>(
     walk: &WalkPlan,
     stepper: &Stepper<W>,
-    interpolator: &Interpolator<W>,
 ) -> Result<(), PlanError> {
-    let eye = stepper.eye();
-    if !interpolator.contains(eye.x, eye.z) {
+    let (eye, surface) = (stepper.eye(), &stepper.surface);
+    if !surface.contains(eye.x, eye.z) {
         return Ok(());
     }
-    let ground = interpolator.height(eye.x, eye.z, Site::pixel(0, 0));
+    let ground = surface.height(eye.x, eye.z, Site::pixel(0, 0));
     if eye.y < ground {
         return Err(PlanError::EyeUnderGround {
             eye: walk.scale.to_scene(eye.y.value()),

@@ -9,14 +9,44 @@
 //!
 //! | wire in | wire out |
 //! |---|---|
-//! | `view_x`, `view_z`, `denominator` | `entry`; `ground_x`, `ground_z` where it is `Met` |
+//! | `view_x`, `view_z`, `denominator` | `entry`; `entry_x`, `entry_z` where it is `Met` |
 //!
 //! *Named outcomes*: a denominator that is not positive is `Sky`; a quotient out of range is
 //! `Far`. *Never*: wraps a quotient, divides by zero.
 
-use super::Line;
-use super::line::Entry;
+use super::coefficient::{Bank, Coefficient as C};
+use super::line::{Entry, Wire};
+use super::{Cycles, Description, Line, Timing, Unit};
 use crate::word::{Divide, Dividing, Ratio, Register, Site, Word, World};
+
+/// What the divider is.
+pub const DESCRIPTION: Description = Description {
+    name: "divider",
+    stage: "divider",
+    gives: "where the ray meets a plane: one ratio per axis",
+    inputs: &[Wire::ViewX, Wire::ViewZ, Wire::Denominator],
+    outputs: &[Wire::Entry, Wire::EntryX, Wire::EntryZ],
+    registers: &[
+        Register::ViewX,
+        Register::ViewZ,
+        Register::Denominator,
+        Register::GroundX,
+        Register::GroundZ,
+    ],
+    multiplier: Register::Weight,
+};
+
+/// Register stages besides one per quotient bit: shift, bias and range, eye.
+pub const ENDS: u32 = 3;
+
+/// Cycles of a divider of so many quotient bits.
+pub const fn timing(bits: u32, serial: bool) -> Timing {
+    if serial {
+        Timing { work: Cycles::every(bits + ENDS), latency: 1, depth: 2 }
+    } else {
+        Timing::pipeline(1, bits + ENDS)
+    }
+}
 
 /// How the ratio is taken; both give the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,13 +68,18 @@ pub struct Divider<W: World> {
     pub ratio_x: Ratio<<W::Ground as Word>::Format>,
     /// The same in z.
     pub ratio_z: Ratio<<W::Ground as Word>::Format>,
-    /// Quotient bits: stages of the array.
-    pub bits: u32,
+    /// Places to shift the numerators left before the ratio (right if negative), x and z: the
+    /// exponent, and what the points of numerator, denominator and quotient differ by.
+    pub shifts: [i32; 2],
+    /// Quotient bits, x and z: stages of the array.
+    pub bits: [u32; 2],
+    /// One stage does all of them, a bit per cycle.
+    pub serial: bool,
 }
 
 impl<W: Dividing> Divider<W> {
-    /// Drives `entry`, `ground_x` and `ground_z` of one line.
-    pub fn run(&self, line: &mut Line<W>, method: Method) {
+    /// Drives `entry`, `entry_x` and `entry_z` of one line.
+    pub fn run_by(&self, method: Method, line: &mut Line<W>) {
         match method {
             Method::Array => self.run_with(line, Divide::divide_array),
             Method::Direct => self.run_with(line, Divide::divide_direct),
@@ -67,8 +102,8 @@ impl<W: Dividing> Divider<W> {
                     divide(line.view_z[i], denominator, self.ratio_z, site.at(Register::GroundZ));
                 match (x, z) {
                     (Some(x), Some(z)) => {
-                        line.ground_x[i] = self.eye_x + x;
-                        line.ground_z[i] = self.eye_z + z;
+                        line.entry_x[i] = self.eye_x + x;
+                        line.entry_z[i] = self.eye_z + z;
                         Entry::Met
                     }
                     _ => Entry::Far,
@@ -77,5 +112,32 @@ impl<W: Dividing> Divider<W> {
                 Entry::Sky
             };
         }
+    }
+}
+
+impl<W: Dividing> Unit<W> for Divider<W> {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
+    }
+
+    fn run(&self, line: &mut Line<W>) {
+        self.run_by(Method::Array, line);
+    }
+
+    fn coefficients(&self, bank: &mut Bank<W>) {
+        bank.ground(C::EyeX, self.eye_x);
+        bank.ground(C::EyeZ, self.eye_z);
+        bank.number(C::RatioShiftX, self.shifts[0]);
+        bank.number(C::RatioShiftZ, self.shifts[1]);
+        bank.number(C::RatioBitsX, self.bits[0]);
+        bank.number(C::RatioBitsZ, self.bits[1]);
+    }
+
+    fn timing(&self, _: u32) -> Timing {
+        timing(self.bits[0], self.serial)
+    }
+
+    fn quotient_bits(&self) -> u32 {
+        self.bits[0]
     }
 }

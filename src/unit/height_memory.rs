@@ -5,6 +5,9 @@
 //! without data and is read with it. *Never*: reads outside the map; addresses are clamped, or
 //! wrapped by subtracting the size.
 
+use super::coefficient::{Bank, Coefficient as C};
+use crate::word::World;
+
 /// What the address unit does beyond the edge nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edge {
@@ -71,6 +74,14 @@ impl<T: Copy> HeightMemory<T> {
     /// What lies beyond.
     pub fn edge(&self) -> Edge {
         self.edge
+    }
+
+    /// Puts in size and edge.
+    pub fn coefficients<W: World>(&self, bank: &mut Bank<W>) {
+        bank.number(C::MapColumns, self.columns);
+        bank.number(C::MapRows, self.rows);
+        bank.number(C::MapEdge, self.edge as i64);
+        bank.number(C::VoidBits, self.has_voids());
     }
 
     /// All nodes, row by row.

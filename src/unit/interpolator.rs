@@ -14,7 +14,7 @@
 //!
 //! | wire in | wire out |
 //! |---|---|
-//! | `ground_x`, `ground_z`, `hit` | `surface`, `slope_x`, `slope_z` |
+//! | `hit`, `ground_x`, `ground_z` | `surface`, `slope_x`, `slope_z` |
 //!
 //! *Cycles*: one result per cycle over 2×2 nodes, four cycles over 3×3 (memory banks).
 //! *Holes*: the surface exists where every node that it is made of has data; bits read with the nodes
@@ -22,12 +22,55 @@
 
 use std::sync::Arc;
 
-use super::Line;
+use super::coefficient::{Bank, Coefficient as C};
 use super::height_memory::HeightMemory;
-use super::kernel_rom::KernelRom;
+use super::kernel_rom::{self, KernelRom};
+use super::line::{When, Wire, Work};
 use super::stepper::SurfaceUnit;
+use super::{Description, Line, Reads, Timing, Unit};
 use crate::frame::Hit;
 use crate::word::{Cell, Interpolating, Multiply, Register, Rescale, Site, Word, World};
+
+/// What the interpolator is.
+pub const DESCRIPTION: Description = Description {
+    name: "interpolator",
+    stage: "interpolator",
+    gives: "surface height and slopes at a place",
+    inputs: &[Wire::Hit, Wire::GroundX, Wire::GroundZ],
+    outputs: &[Wire::Surface, Wire::SlopeX, Wire::SlopeZ],
+    registers: &[
+        Register::GroundX,
+        Register::GroundZ,
+        Register::Node,
+        Register::Surface,
+        Register::SlopeX,
+        Register::SlopeZ,
+        Register::Weight,
+        Register::WeightSlope,
+    ],
+    multiplier: Register::Weight,
+};
+
+/// Pipeline stages behind nodes and weights: differences, lerps along z, lerp along x, compare.
+pub const LERP_LATENCY: u32 = 5;
+
+/// Pipeline stages at the hit behind those of a height: the factors of slopes.
+pub const SLOPE_LATENCY: u32 = 2;
+
+/// Cycles from a place to its nodes and their weights: N of docs/cycles.md.
+pub const fn nodes_latency(memory_latency: u32) -> u32 {
+    if memory_latency > kernel_rom::LATENCY { memory_latency } else { kernel_rom::LATENCY }
+}
+
+/// Cycles from a place to the height there.
+pub const fn height_latency(memory_latency: u32) -> u32 {
+    nodes_latency(memory_latency) + LERP_LATENCY
+}
+
+/// Cycles at the hit, where an interpolation takes so many cycles of reading.
+pub const fn timing(reads: u32, memory_latency: u32) -> Timing {
+    Timing::pipeline(reads, height_latency(memory_latency) + SLOPE_LATENCY)
+}
 
 /// Which nodes are read, and how the weight is made of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,6 +120,19 @@ pub struct Arm<T> {
     pub weight: T,
     /// Derivative of the weight.
     pub slope: T,
+}
+
+impl<W: World> Interpolator<W> {
+    /// Cycles of the height memory per interpolation: 3×3 nodes take four cycles from four banks.
+    pub fn read_cycles(&self) -> u32 {
+        if self.form == Form::Stretch { 4 } else { 1 }
+    }
+
+    /// Reads of a height: its nodes, and a weight along each axis.
+    pub fn reads_per_height(&self) -> Reads {
+        let memory = if self.form == Form::Stretch { 9 } else { 4 };
+        Reads { memory, table: if self.rom.is_some() { 2 } else { 0 } }
+    }
 }
 
 impl<W: Interpolating> Interpolator<W> {
@@ -233,10 +289,16 @@ impl<W: Interpolating> Interpolator<W> {
         }
     }
 
-    /// Drives `surface`, `slope_x` and `slope_z` where the ray met the surface.
-    pub fn run(&self, line: &mut Line<W>) {
+}
+
+impl<W: Interpolating> Unit<W> for Interpolator<W> {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
+    }
+
+    fn run(&self, line: &mut Line<W>) {
         for i in 0..line.len() {
-            if line.hit[i] == Hit::Surface || line.hit[i] == Hit::Side {
+            if line.is(When::OnSurface, i) {
                 let site = Site::pixel(line.number, line.column[i]).step(AT_THE_HIT);
                 let sample = self.sample(line.ground_x[i], line.ground_z[i], site);
                 line.surface[i] = sample.surface;
@@ -248,6 +310,40 @@ impl<W: Interpolating> Interpolator<W> {
                     ),
                 };
             }
+        }
+    }
+
+    fn coefficients(&self, bank: &mut Bank<W>) {
+        let (form, shift) = match self.form {
+            Form::Plain => (0, 0),
+            Form::Blend(shift) => (1, shift),
+            Form::Hat => (2, 0),
+            Form::Stretch => (3, 0),
+        };
+        bank.number(C::Form, form);
+        bank.number(C::BlendShift, shift);
+        bank.weight(C::WeightOne, self.one);
+        self.heights.coefficients(bank);
+        if let Some(rom) = &self.rom {
+            bank.number(C::KernelLog2, rom.log2());
+        }
+        bank.number(C::SlopeScaled, self.slope_scale.is_some());
+        if let Some([x, z]) = self.slope_scale {
+            bank.weight(C::SlopeScaleX, x);
+            bank.weight(C::SlopeScaleZ, z);
+        }
+    }
+
+    fn timing(&self, memory_latency: u32) -> Timing {
+        timing(self.read_cycles(), memory_latency)
+    }
+
+    fn reads(&self, _: Work, hit: Hit) -> Reads {
+        let Reads { memory, table } = self.reads_per_height();
+        match hit {
+            // Weights, and their derivatives.
+            Hit::Surface | Hit::Side => Reads { memory, table: 2 * table },
+            Hit::Sky | Hit::Far => Reads::default(),
         }
     }
 }

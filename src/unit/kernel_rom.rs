@@ -5,6 +5,10 @@
 
 use crate::word::{Cell, Word};
 
+/// Cycles from a place to the weights of its nodes: kernel ROM and blend. They pass beside the
+/// memory's own; one that is faster waits for them.
+pub const LATENCY: u32 = 2;
+
 /// Weights f and slopes f′ at the entries `t / 2^log2`, t = 0 ..= 2^log2.
 ///
 /// Over 2×2 nodes the argument is the fraction within the cell. Over 3×3 nodes it is the place

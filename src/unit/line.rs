@@ -1,7 +1,11 @@
 //! The wires of one scan line: a structure of arrays, one entry per pixel in flight.
+//!
+//! Every wire stands once, in the list at the end of this file. What passes wires on (test vectors,
+//! co-simulation, explanations, overflow counts) names them by [`Wire`].
 
+use super::projector::LineStart;
 use crate::frame::Hit;
-use crate::word::{Register, Word, World};
+use crate::word::{Open, Readout, Register, Word, World};
 
 /// What the divider says of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -31,70 +35,165 @@ pub struct Work {
     pub hits: u32,
 }
 
-/// The wires of one scan line. A unit that is not fitted leaves its wires as they are.
-#[derive(Clone, Debug)]
-pub struct Line<W: World> {
-    /// Scan line from the top.
-    pub number: u32,
-    /// Column of each pixel.
-    pub column: Vec<u32>,
-    /// View vector, x in cells (on a plane: along its first axis, in squares).
-    pub view_x: Vec<W::View>,
-    /// View vector, y in height units.
-    pub view_y: Vec<W::View>,
-    /// View vector, z in cells (on a plane: along its second axis, in squares).
-    pub view_z: Vec<W::View>,
-    /// Denominator of the projection.
-    pub denominator: Vec<W::View>,
-    /// Outcome of the projection.
-    pub entry: Vec<Entry>,
-    /// Ground position, x: after the divider the entry, after the stepper the hit.
-    pub ground_x: Vec<W::Ground>,
-    /// Ground position, z.
-    pub ground_z: Vec<W::Ground>,
-    /// Outcome of the pixel.
-    pub hit: Vec<Hit>,
-    /// Index of the sample that hit.
-    pub steps: Vec<u32>,
-    /// What the stepper did.
-    pub work: Vec<Work>,
-    /// Surface height at the ground position.
-    pub surface: Vec<W::Height>,
-    /// Negated slope of the surface against x.
-    pub slope_x: Vec<W::Height>,
-    /// Negated slope of the surface against z.
-    pub slope_z: Vec<W::Height>,
-    /// sRGB bytes.
-    pub color: Vec<[u8; 3]>,
+/// The pixels at which a wire says something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum When {
+    /// All of them.
+    Always,
+    /// Those whose ray meets the plane of the divider, or starts at the eye.
+    Entered,
+    /// Those that show the surface or a side of the map.
+    OnSurface,
+}
+
+impl When {
+    /// In words, for the pages of files.
+    pub fn said(self) -> &'static str {
+        match self {
+            Self::Always => "",
+            Self::Entered => "; valid if met",
+            Self::OnSurface => "; valid on surface and side",
+        }
+    }
+}
+
+macro_rules! wires {
+    ($($(#[$doc:meta])* $field:ident $wire:ident $class:ident.$format:ident $register:ident
+        $when:ident $meaning:literal,)*) => {
+        /// The wires of one scan line. A unit that is not fitted leaves its wires as they are.
+        #[derive(Clone, Debug)]
+        pub struct Line<W: World> {
+            /// Scan line from the top.
+            pub number: u32,
+            /// The projector's accumulators at the first column.
+            pub start: LineStart<W>,
+            /// Column of each pixel.
+            pub column: Vec<u32>,
+            $($(#[$doc])* pub $field: Vec<W::$class>,)*
+            /// Outcome of the projection.
+            pub entry: Vec<Entry>,
+            /// Outcome of the pixel.
+            pub hit: Vec<Hit>,
+            /// Index of the sample that hit.
+            pub steps: Vec<u32>,
+            /// What the stepper did.
+            pub work: Vec<Work>,
+            /// sRGB bytes.
+            pub color: Vec<[u8; 3]>,
+        }
+
+        impl<W: World> Line<W> {
+            /// Idle wires for the given columns.
+            pub fn new(world: &W, columns: impl IntoIterator<Item = u32>) -> Self {
+                let column: Vec<u32> = columns.into_iter().collect();
+                let n = column.len();
+                Self {
+                    number: 0,
+                    start: LineStart::idle(world),
+                    column,
+                    $($field: vec![W::$class::zero(world.$format(Register::$register)); n],)*
+                    entry: vec![Entry::Met; n],
+                    hit: vec![Hit::Sky; n],
+                    steps: vec![0; n],
+                    work: vec![Work::default(); n],
+                    color: vec![[0; 3]; n],
+                }
+            }
+
+            /// Whether the word on a wire has overflowed its register.
+            fn overflowed(&self, wire: Wire, i: usize) -> bool {
+                match wire {
+                    $(Wire::$wire => self.$field[i].overflowed(),)*
+                    Wire::Entry | Wire::Hit | Wire::Steps | Wire::Color => false,
+                }
+            }
+        }
+
+        /// A wire between two units, by name.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Wire {
+            $($(#[$doc])* $wire,)*
+            /// Outcome of the projection.
+            Entry,
+            /// Outcome of the pixel.
+            Hit,
+            /// Index of the sample that hit.
+            Steps,
+            /// Colour of the pixel.
+            Color,
+        }
+
+        impl Wire {
+            /// The wires that carry words.
+            pub const WORDS: &'static [Self] = &[$(Self::$wire,)*];
+
+            /// Name in files, reports and hardware.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$wire => stringify!($field),)*
+                    Self::Entry => "entry",
+                    Self::Hit => "hit",
+                    Self::Steps => "steps",
+                    Self::Color => "color",
+                }
+            }
+
+            /// The register whose format the wire has, where it carries words.
+            pub fn register(self) -> Option<Register> {
+                match self {
+                    $(Self::$wire => Some(Register::$register),)*
+                    Self::Entry | Self::Hit | Self::Steps | Self::Color => None,
+                }
+            }
+
+            /// The pixels at which the unit that drives the wire says something.
+            pub fn when(self) -> When {
+                match self {
+                    $(Self::$wire => When::$when,)*
+                    Self::Steps => When::OnSurface,
+                    Self::Entry | Self::Hit | Self::Color => When::Always,
+                }
+            }
+
+            /// What it carries.
+            pub fn meaning(self) -> &'static str {
+                match self {
+                    $(Self::$wire => $meaning,)*
+                    Self::Entry => "0 met, 1 sky, 2 far",
+                    Self::Hit => "0 sky, 1 surface, 2 side, 3 far",
+                    Self::Steps => "index of the sample that hit",
+                    Self::Color => "red, green, blue, a byte each",
+                }
+            }
+        }
+
+        impl<W: Open> Line<W> {
+            /// The bits on a wire; none where words have no bits.
+            pub fn bits(&self, wire: Wire, i: usize) -> Option<i64> {
+                match wire {
+                    $(Wire::$wire => self.$field[i].raw(),)*
+                    Wire::Entry => Some(self.entry[i] as i64),
+                    Wire::Hit => Some(self.hit[i] as i64),
+                    Wire::Steps => Some(self.steps[i].into()),
+                    Wire::Color => {
+                        let [red, green, blue] = self.color[i].map(i64::from);
+                        Some(red << 16 | green << 8 | blue)
+                    }
+                }
+            }
+
+            /// The word on a wire as a number; none for a wire that carries no word.
+            pub fn value(&self, wire: Wire, i: usize) -> Option<f64> {
+                match wire {
+                    $(Wire::$wire => Some(self.$field[i].value()),)*
+                    Wire::Entry | Wire::Hit | Wire::Steps | Wire::Color => None,
+                }
+            }
+        }
+    };
 }
 
 impl<W: World> Line<W> {
-    /// Idle wires for the given columns.
-    pub fn new(world: &W, columns: impl IntoIterator<Item = u32>) -> Self {
-        let column: Vec<u32> = columns.into_iter().collect();
-        let n = column.len();
-        let view = vec![W::View::zero(world.view(Register::ViewX)); n];
-        let height = |register| vec![W::Height::zero(world.height(register)); n];
-        Self {
-            number: 0,
-            column,
-            view_x: view.clone(),
-            view_y: view.clone(),
-            view_z: view.clone(),
-            denominator: view,
-            entry: vec![Entry::Met; n],
-            ground_x: vec![W::Ground::zero(world.ground(Register::GroundX)); n],
-            ground_z: vec![W::Ground::zero(world.ground(Register::GroundZ)); n],
-            hit: vec![Hit::Sky; n],
-            steps: vec![0; n],
-            work: vec![Work::default(); n],
-            surface: height(Register::Surface),
-            slope_x: height(Register::SlopeX),
-            slope_z: height(Register::SlopeZ),
-            color: vec![[0; 3]; n],
-        }
-    }
-
     /// Number of pixels on the wires.
     pub fn len(&self) -> usize {
         self.column.len()
@@ -105,28 +204,59 @@ impl<W: World> Line<W> {
         self.column.is_empty()
     }
 
+    /// Whether a pixel is one of those.
+    pub fn is(&self, when: When, i: usize) -> bool {
+        match when {
+            When::Always => true,
+            When::Entered => self.entry[i] == Entry::Met,
+            When::OnSurface => matches!(self.hit[i], Hit::Surface | Hit::Side),
+        }
+    }
+
     /// Registers whose wires carry overflowed values: pixels, and the first pixel's column. Empty
     /// in stock worlds, whose ranges are proved.
     pub fn overflows(&self) -> Vec<(Register, u64, u32)> {
+        // A ray that misses has walked all the same.
+        let walked = |wire: Wire| match wire {
+            Wire::GroundX | Wire::GroundZ => When::Entered,
+            _ => wire.when(),
+        };
         let mut found = Vec::new();
-        let mut look = |register, overflowed: &dyn Fn(usize) -> bool| {
-            let mut pixels = (0..self.len()).filter(|&i| overflowed(i));
+        for &register in Register::ALL {
+            let of_register = |wire: &&Wire| wire.register() == Some(register);
+            let wires: Vec<Wire> = Wire::WORDS.iter().filter(of_register).copied().collect();
+            let mut pixels = (0..self.len()).filter(|&i| {
+                wires.iter().any(|&wire| self.is(walked(wire), i) && self.overflowed(wire, i))
+            });
             if let Some(first) = pixels.next() {
                 found.push((register, 1 + pixels.count() as u64, self.column[first]));
             }
-        };
-        let met = |i: usize| matches!(self.hit[i], Hit::Surface | Hit::Side);
-        look(Register::ViewX, &|i| self.view_x[i].overflowed());
-        look(Register::ViewY, &|i| self.view_y[i].overflowed());
-        look(Register::ViewZ, &|i| self.view_z[i].overflowed());
-        look(Register::Denominator, &|i| self.denominator[i].overflowed());
-        // Pixels that the divider turned away still carry what was there before.
-        let entered = |i: usize| self.entry[i] == Entry::Met;
-        look(Register::GroundX, &|i| entered(i) && self.ground_x[i].overflowed());
-        look(Register::GroundZ, &|i| entered(i) && self.ground_z[i].overflowed());
-        look(Register::Surface, &|i| met(i) && self.surface[i].overflowed());
-        look(Register::SlopeX, &|i| met(i) && self.slope_x[i].overflowed());
-        look(Register::SlopeZ, &|i| met(i) && self.slope_z[i].overflowed());
+        }
         found
     }
+}
+
+wires! {
+    /// View vector, x in cells (on a plane: along its first axis, in squares).
+    view_x ViewX View.view ViewX Always "view vector along x",
+    /// View vector, y in height units.
+    view_y ViewY View.view ViewY Always "view vector along y",
+    /// View vector, z in cells (on a plane: along its second axis, in squares).
+    view_z ViewZ View.view ViewZ Always "view vector along z",
+    /// Denominator of the projection.
+    denominator Denominator View.view Denominator Always "positive towards the plane",
+    /// Where the ray meets the plane of the divider, x.
+    entry_x EntryX Ground.ground GroundX Entered "eye plus quotient, x",
+    /// Where the ray meets the plane of the divider, z.
+    entry_z EntryZ Ground.ground GroundZ Entered "eye plus quotient, z",
+    /// Where the ray meets the surface, x.
+    ground_x GroundX Ground.ground GroundX OnSurface "place of the hit, x",
+    /// Where the ray meets the surface, z.
+    ground_z GroundZ Ground.ground GroundZ OnSurface "place of the hit, z",
+    /// Height of the surface there.
+    surface Surface Height.height Surface OnSurface "surface height",
+    /// Negated slope of the surface against x.
+    slope_x SlopeX Height.height SlopeX OnSurface "negated slope along x",
+    /// Negated slope of the surface against z.
+    slope_z SlopeZ Height.height SlopeZ OnSurface "negated slope along z",
 }

@@ -14,7 +14,9 @@
 #![deny(clippy::float_arithmetic)]
 
 pub mod checker;
+pub mod coefficient;
 pub mod color;
+pub mod description;
 pub mod divider;
 pub mod height_memory;
 pub mod interpolator;
@@ -25,4 +27,5 @@ pub mod pyramid;
 pub mod shader;
 pub mod stepper;
 
-pub use line::Line;
+pub use description::{Cycles, Description, Idle, Reads, Timing, Unit};
+pub use line::{Line, Wire};

@@ -12,8 +12,24 @@
 //! *Cycles*: one pixel per cycle. *Never*: multiplies, rounds or saturates inside the recurrence,
 //! so that entering it at any pixel gives the same bits.
 
-use super::Line;
-use crate::word::{Word, World};
+use super::coefficient::{Bank, Coefficient as C};
+use super::line::Wire;
+use super::{Cycles, Description, Line, Timing, Unit};
+use crate::word::{Register, Word, World};
+
+/// What the projector is.
+pub const DESCRIPTION: Description = Description {
+    name: "projector",
+    stage: "projector",
+    gives: "view vector and denominator of a pixel by additions",
+    inputs: &[],
+    outputs: &[Wire::ViewX, Wire::ViewY, Wire::ViewZ, Wire::Denominator],
+    registers: &[Register::ViewX, Register::ViewY, Register::ViewZ, Register::Denominator],
+    multiplier: Register::Weight,
+};
+
+/// Its cycles.
+pub const TIMING: Timing = Timing { work: Cycles::every(1), latency: 1, depth: 2 };
 
 /// Coefficients of one accumulator.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,27 +55,36 @@ pub struct Projector<W: World> {
     pub denominator: Option<Linear<W::View>>,
 }
 
-/// The accumulators at the first column of a line.
+/// The accumulators at the first column of a line; those that are absent stay as they are.
 #[derive(Clone, Copy, Debug)]
 pub struct LineStart<W: World> {
     /// View vector, x.
     pub x: W::View,
     /// View vector, y.
-    pub y: Option<W::View>,
+    pub y: W::View,
     /// View vector, z.
     pub z: W::View,
     /// Denominator.
-    pub denominator: Option<W::View>,
+    pub denominator: W::View,
+}
+
+impl<W: World> LineStart<W> {
+    /// Accumulators at zero.
+    pub fn idle(world: &W) -> Self {
+        let zero = W::View::zero(world.view(Register::ViewX));
+        Self { x: zero, y: zero, z: zero, denominator: zero }
+    }
 }
 
 impl<W: World> Projector<W> {
     /// The accumulators at line 0.
     pub fn first_line(&self) -> LineStart<W> {
+        let start = |c: Option<Linear<W::View>>| c.map_or(self.x.start, |c| c.start);
         LineStart {
             x: self.x.start,
-            y: self.y.map(|c| c.start),
+            y: start(self.y),
             z: self.z.start,
-            denominator: self.denominator.map(|c| c.start),
+            denominator: start(self.denominator),
         }
     }
 
@@ -67,27 +92,63 @@ impl<W: World> Projector<W> {
     pub fn next_line(&self, line: &mut LineStart<W>) {
         line.x = line.x + self.x.per_line;
         line.z = line.z + self.z.per_line;
-        if let (Some(y), Some(c)) = (&mut line.y, self.y) {
-            *y = *y + c.per_line;
+        if let Some(c) = self.y {
+            line.y = line.y + c.per_line;
         }
-        if let (Some(d), Some(c)) = (&mut line.denominator, self.denominator) {
-            *d = *d + c.per_line;
+        if let Some(c) = self.denominator {
+            line.denominator = line.denominator + c.per_line;
         }
+    }
+
+    /// The accumulators that are fitted, with the registers that they drive.
+    pub fn accumulators(&self) -> impl Iterator<Item = (Register, Linear<W::View>)> {
+        let all = [
+            (Register::ViewX, Some(self.x)),
+            (Register::ViewY, self.y),
+            (Register::ViewZ, Some(self.z)),
+            (Register::Denominator, self.denominator),
+        ];
+        all.into_iter().filter_map(|(register, linear)| Some((register, linear?)))
+    }
+}
+
+impl<W: World> Unit<W> for Projector<W> {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
     }
 
     /// Drives the view wires of one line: one addition per accumulator and column.
     ///
     /// The wires take the pixels of `line.column`, in ascending order; the accumulators walk over
     /// every column up to the last one asked for.
-    pub fn run(&self, start: &LineStart<W>, line: &mut Line<W>) {
+    fn run(&self, line: &mut Line<W>) {
+        let start = line.start;
         accumulate(start.x, self.x.per_column, &line.column, &mut line.view_x);
         accumulate(start.z, self.z.per_column, &line.column, &mut line.view_z);
-        if let (Some(y), Some(c)) = (start.y, self.y) {
-            accumulate(y, c.per_column, &line.column, &mut line.view_y);
+        if let Some(c) = self.y {
+            accumulate(start.y, c.per_column, &line.column, &mut line.view_y);
         }
-        if let (Some(d), Some(c)) = (start.denominator, self.denominator) {
-            accumulate(d, c.per_column, &line.column, &mut line.denominator);
+        if let Some(c) = self.denominator {
+            accumulate(start.denominator, c.per_column, &line.column, &mut line.denominator);
         }
+    }
+
+    fn coefficients(&self, bank: &mut Bank<W>) {
+        for (register, linear) in self.accumulators() {
+            let [start, per_line, per_column] = match register {
+                Register::ViewX => [C::ViewXStart, C::ViewXPerLine, C::ViewXPerColumn],
+                Register::ViewY => [C::ViewYStart, C::ViewYPerLine, C::ViewYPerColumn],
+                Register::ViewZ => [C::ViewZStart, C::ViewZPerLine, C::ViewZPerColumn],
+                _ => [C::DenominatorStart, C::DenominatorPerLine, C::DenominatorPerColumn],
+            };
+            bank.view(start, linear.start);
+            bank.view(per_line, linear.per_line);
+            bank.view(per_column, linear.per_column);
+        }
+    }
+
+    fn timing(&self, _: u32) -> Timing {
+        TIMING
     }
 }
 

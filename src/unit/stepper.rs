@@ -11,7 +11,7 @@
 //!
 //! | wire in | wire out |
 //! |---|---|
-//! | `view_*`, `entry`, `ground_x`, `ground_z` | `hit`, `ground_x`, `ground_z`, `steps`, `work` |
+//! | `view_*`, `entry`, `entry_x`, `entry_z` | `hit`, `ground_x`, `ground_z`, `steps`, `work` |
 //!
 //! *Named outcomes*: `Side` when the last clear place, after the halvings, lies outside the map or in
 //! a hole; `Sky` when the ray is out of the map and receding, above the highest node and rising, or
@@ -21,11 +21,62 @@
 
 use std::sync::Arc;
 
-use super::Line;
-use super::line::{Entry, Work};
+use super::coefficient::{Bank, Coefficient as C};
+use super::interpolator::{self, Interpolator};
+use super::line::{Entry, Wire, Work};
+use super::{Cycles, Description, Line, Reads, Timing, Unit};
 use super::pyramid::Pyramid;
 use crate::frame::Hit;
-use crate::word::{Cell, Register, Rescale, Site, Word, World};
+use crate::word::{Cell, Interpolating, Register, Rescale, Site, Word, World};
+
+/// What the stepper is.
+pub const DESCRIPTION: Description = Description {
+    name: "stepper",
+    stage: "stepper",
+    gives: "the first sample of a ray under the surface",
+    inputs: &[Wire::ViewX, Wire::ViewY, Wire::ViewZ, Wire::Entry, Wire::EntryX, Wire::EntryZ],
+    outputs: &[Wire::Hit, Wire::GroundX, Wire::GroundZ, Wire::Steps],
+    registers: &[
+        Register::ViewX,
+        Register::ViewY,
+        Register::ViewZ,
+        Register::GroundX,
+        Register::GroundZ,
+        Register::DGroundX,
+        Register::DGroundZ,
+        Register::RayY,
+        Register::DRayY,
+        Register::Node,
+        Register::Surface,
+        Register::Weight,
+    ],
+    multiplier: Register::Weight,
+};
+
+/// Cycles to turn a view vector into a step and to begin a walk with it: magnitudes, their leading
+/// one, shift, end of the walk.
+pub const RAY_START: u32 = 4;
+
+/// Cycles that a hit takes besides its halvings: one for its distance from the eye, which says how
+/// many they are, and one to place it.
+pub const RAY_END: u32 = 2;
+
+/// Cycles over a map whose interpolations take so many cycles of reading: every trial waits for the
+/// pyramid, samples stream through the interpolation in groups, halvings wait for each other. With
+/// holes, the bits of the two places between which a hit lies are read once more.
+pub const fn timing(reads: u32, void_bits: bool, memory_latency: u32) -> Timing {
+    let answer = interpolator::height_latency(memory_latency);
+    let rim = if void_bits { 2 * reads + answer } else { 0 };
+    let work = Cycles {
+        item: RAY_START,
+        trial: 1 + memory_latency,
+        sample: reads,
+        group: answer,
+        halving: reads + answer,
+        hit: RAY_END + rim,
+    };
+    Timing { work, latency: 1, depth: 2 }
+}
 
 /// What the stepper asks of the interpolator.
 pub trait SurfaceUnit<W: World> {
@@ -84,6 +135,8 @@ pub struct Stepper<W: World> {
     pub format_z: <W::Ground as Word>::Format,
     /// Format of y.
     pub format_y: <W::Height as Word>::Format,
+    /// Its own interpolation, of the surface at its samples.
+    pub surface: Interpolator<W>,
 }
 
 /// A place on the ray, or a step along it.
@@ -166,27 +219,12 @@ pub struct Walk<W: World> {
 }
 
 impl<W: World> Stepper<W> {
-    /// Drives `hit`, `ground_x`, `ground_z`, `steps` and `work` of one line.
-    pub fn run(&self, line: &mut Line<W>, surface: &impl SurfaceUnit<W>) {
-        for i in 0..line.len() {
-            let site = Site::pixel(line.number, line.column[i]);
-            let start = match line.entry[i] {
-                _ if self.from_eye => self.eye(),
-                Entry::Met => Place { x: line.ground_x[i], y: self.top, z: line.ground_z[i] },
-                missed => {
-                    line.hit[i] = if missed == Entry::Far { self.beyond } else { Hit::Sky };
-                    line.steps[i] = 0;
-                    line.work[i] = Work::default();
-                    continue;
-                }
-            };
-            let step = self.step(line.view_x[i], line.view_y[i], line.view_z[i], site);
-            let walk = self.walk(start, step, surface, site);
-            line.hit[i] = walk.hit;
-            line.ground_x[i] = walk.place.x;
-            line.ground_z[i] = walk.place.z;
-            line.steps[i] = walk.index;
-            line.work[i] = walk.work;
+    /// Where the ray of a pixel starts, if it has one.
+    pub fn start(&self, line: &Line<W>, i: usize) -> Option<Place<W>> {
+        match line.entry[i] {
+            _ if self.from_eye => Some(self.eye()),
+            Entry::Met => Some(Place { x: line.entry_x[i], y: self.top, z: line.entry_z[i] }),
+            Entry::Sky | Entry::Far => None,
         }
     }
 
@@ -357,5 +395,68 @@ impl<W: World> Stepper<W> {
             || (heading.east && i >= columns - 1)
             || (heading.north && j < 0)
             || (heading.south && j >= rows - 1)
+    }
+}
+
+impl<W: Interpolating> Unit<W> for Stepper<W> {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
+    }
+
+    fn run(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            let Some(start) = self.start(line, i) else {
+                line.hit[i] = if line.entry[i] == Entry::Far { self.beyond } else { Hit::Sky };
+                line.steps[i] = 0;
+                line.work[i] = Work::default();
+                continue;
+            };
+            let site = Site::pixel(line.number, line.column[i]);
+            let step = self.step(line.view_x[i], line.view_y[i], line.view_z[i], site);
+            let walk = self.walk(start, step, &self.surface, site);
+            line.hit[i] = walk.hit;
+            line.ground_x[i] = walk.place.x;
+            line.ground_z[i] = walk.place.z;
+            line.steps[i] = walk.index;
+            line.work[i] = walk.work;
+        }
+    }
+
+    fn coefficients(&self, bank: &mut Bank<W>) {
+        let heights = &self.surface.heights;
+        bank.number(C::FromEye, self.from_eye);
+        bank.ground(C::EyeX, self.eye_x);
+        bank.height(C::EyeY, self.eye_y);
+        bank.ground(C::EyeZ, self.eye_z);
+        bank.height(C::Highest, self.top);
+        bank.height(C::Base, self.base);
+        bank.number(C::Sides, self.sides);
+        bank.number(C::Fineness, self.fineness);
+        bank.number(C::Last, self.last);
+        bank.number(C::BeyondSky, self.beyond == Hit::Sky);
+        heights.coefficients(bank);
+        let (fixed, bias, cap) = match self.halvings {
+            HalvingRule::Fixed(times) => (true, 0, times),
+            HalvingRule::Footprint { bias, cap } => (false, bias, cap),
+        };
+        bank.number(C::BisectionFixed, fixed);
+        bank.number(C::BisectionBias, bias);
+        bank.number(C::BisectionCap, cap);
+        bank.number(C::Skipping, self.pyramid.is_some());
+        bank.number(C::PyramidTop, self.pyramid.as_ref().map_or(0, |pyramid| pyramid.top()));
+    }
+
+    fn timing(&self, memory_latency: u32) -> Timing {
+        let surface = &self.surface;
+        timing(surface.read_cycles(), surface.heights.has_voids(), memory_latency)
+    }
+
+    fn reads(&self, work: Work, _: Hit) -> Reads {
+        let each = self.surface.reads_per_height();
+        let interpolations = u64::from(work.samples + work.halvings);
+        Reads {
+            memory: u64::from(work.trials) + interpolations * each.memory,
+            table: interpolations * each.table,
+        }
     }
 }

@@ -1,0 +1,138 @@
+//! What the rest of the program knows of a unit: its name, its wires, its registers, its cycles.
+//! Processor, clock, costs, explanations, test vectors and co-simulation read it from here.
+
+use std::fmt::Debug;
+
+use super::coefficient::Bank;
+use super::line::{Line, Wire, Work};
+use crate::frame::Hit;
+use crate::word::{Register, World};
+
+/// A unit, whatever the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Description {
+    /// Name: stem of its file here, of its module in the RTL, of its page in docs/units, and of
+    /// its test vectors.
+    pub name: &'static str,
+    /// Stage of the elastic chain that it is, or that it is a part of.
+    pub stage: &'static str,
+    /// What it gives, in half a sentence.
+    pub gives: &'static str,
+    /// Wires in.
+    pub inputs: &'static [Wire],
+    /// Wires out.
+    pub outputs: &'static [Wire],
+    /// Registers whose formats its arithmetic has.
+    pub registers: &'static [Register],
+    /// Register whose bits its multipliers add over, one addition a bit.
+    pub multiplier: Register,
+}
+
+/// Cycles of a unit's work on an item, linear in what the stepper did for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cycles {
+    /// On every item.
+    pub item: u32,
+    /// And on each of its trials.
+    pub trial: u32,
+    /// Samples.
+    pub sample: u32,
+    /// Groups of samples.
+    pub group: u32,
+    /// Halvings.
+    pub halving: u32,
+    /// Hits.
+    pub hit: u32,
+}
+
+impl Cycles {
+    /// The same number of cycles on every item.
+    pub const fn every(item: u32) -> Self {
+        Self { item, trial: 0, sample: 0, group: 0, halving: 0, hit: 0 }
+    }
+
+    /// On an item for which the stepper did so much.
+    pub fn of(self, work: Work) -> u32 {
+        self.item
+            + work.trials * self.trial
+            + work.samples * self.sample
+            + work.groups * self.group
+            + work.halvings * self.halving
+            + work.hits * self.hit
+    }
+}
+
+/// Cycles of a unit in the elastic chain (equation 28 of docs/mathematics.md).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Timing {
+    /// Work on an item.
+    pub work: Cycles,
+    /// L: cycles from its last cycle of work on an item to the item's arrival at the next unit.
+    pub latency: u32,
+    /// D: items that it holds, pipeline and queue together.
+    pub depth: u32,
+}
+
+impl Timing {
+    /// A pipeline that takes an item every so many cycles, with a queue for all that it holds.
+    pub const fn pipeline(every: u32, latency: u32) -> Self {
+        Self { work: Cycles::every(every), latency, depth: latency + 1 }
+    }
+}
+
+/// Reads of a unit on an item.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reads {
+    /// Of heights and pyramid.
+    pub memory: u64,
+    /// Of tables.
+    pub table: u64,
+}
+
+/// A unit that has been set up. The bounds of its implementation are its bill of materials.
+pub trait Unit<W: World>: Debug + Sync {
+    /// What it is.
+    fn description(&self) -> &'static Description;
+
+    /// Drives its output wires on a line.
+    fn run(&self, line: &mut Line<W>);
+
+    /// Puts in its coefficients.
+    fn coefficients(&self, bank: &mut Bank<W>);
+
+    /// Its cycles, with memories of a latency.
+    fn timing(&self, memory_latency: u32) -> Timing;
+
+    /// Its reads on an item of which the stepper says this.
+    fn reads(&self, _work: Work, _hit: Hit) -> Reads {
+        Reads::default()
+    }
+
+    /// Quotient bits, of a unit that divides.
+    fn quotient_bits(&self) -> u32 {
+        0
+    }
+}
+
+/// A unit of another kind of surface in a full machine: it passes items on, one a cycle.
+#[derive(Clone, Copy, Debug)]
+pub struct Idle {
+    /// What it would be.
+    pub description: &'static Description,
+    /// Its cycles if it worked, with memories of a latency.
+    pub timing: fn(u32) -> Timing,
+}
+
+impl<W: World> Unit<W> for Idle {
+    fn description(&self) -> &'static Description {
+        self.description
+    }
+
+    fn run(&self, _: &mut Line<W>) {}
+
+    fn coefficients(&self, _: &mut Bank<W>) {}
+
+    fn timing(&self, memory_latency: u32) -> Timing {
+        Timing { work: Cycles::every(1), ..(self.timing)(memory_latency) }
+    }
+}

@@ -3,14 +3,13 @@
 
 mod support;
 
-use criterion::measurement::WallTime;
-use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use terraline::engine::FixedWorld;
 use terraline::fast::enter;
 use terraline::plan::Plan;
 use terraline::processor::Processor;
 use terraline::scene::Scene;
-use terraline::setup::{Back, Memory, Setup, formats};
+use terraline::setup::{Memory, Setup, formats};
 use terraline::unit::divider::Method;
 use terraline::word::Complete;
 use terraline::word::real::Real;
@@ -28,36 +27,18 @@ fn units<W: Complete>(criterion: &mut Criterion, name: &str, world: W, scene: &S
     for _ in 0..LINE {
         processor.skip_line();
     }
-    let start = *processor.line_start();
     processor.run_line(&mut line);
     let mut group = criterion.benchmark_group(format!("units/{name}"));
     group.throughput(Throughput::Elements(COLUMNS.into()));
-    group.bench_function("projector", |b| b.iter(|| setup.projector.run(&start, &mut line)));
+    for unit in setup.chain() {
+        group.bench_function(unit.description().name, |b| b.iter(|| unit.run(&mut line)));
+    }
     if let Some(divider) = &setup.divider {
-        divider_benches(&mut group, |method| divider.run(&mut line, method));
-    }
-    if let Back::Terrain(units) = &setup.back {
-        // The stepper starts from the entries that the divider left, every time.
-        let entered = line.clone();
-        group.bench_function("stepper", |b| {
-            b.iter(|| {
-                line.ground_x.copy_from_slice(&entered.ground_x);
-                line.ground_z.copy_from_slice(&entered.ground_z);
-                units.stepper.run(&mut line, &units.interpolator);
-            });
+        group.bench_function("divider direct", |b| {
+            b.iter(|| divider.run_by(Method::Direct, &mut line));
         });
-        group.bench_function("interpolator", |b| b.iter(|| units.interpolator.run(&mut line)));
-        group.bench_function("shader", |b| b.iter(|| units.shader.run(&mut line)));
-    }
-    if let Back::Plane(checker) = &setup.back {
-        group.bench_function("checker", |b| b.iter(|| checker.run(&mut line)));
     }
     group.finish();
-}
-
-fn divider_benches(group: &mut BenchmarkGroup<'_, WallTime>, mut run: impl FnMut(Method)) {
-    group.bench_function("divider array", |b| b.iter(|| run(Method::Array)));
-    group.bench_function("divider direct", |b| b.iter(|| run(Method::Direct)));
 }
 
 fn worlds(criterion: &mut Criterion) {

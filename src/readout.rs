@@ -37,15 +37,16 @@ impl<'a> Reader<'a> {
         if !matches!(line.hit[i], Hit::Surface | Hit::Side) {
             return None;
         }
-        let (x, z) = (line.ground_x[i].value(), line.ground_z[i].value());
         let (point, normal) = match &self.plan.ground {
             Ground::Terrain(walk) => {
+                let (x, z) = (line.ground_x[i].value(), line.ground_z[i].value());
                 let height = walk.scale.to_scene(line.surface[i].value());
                 let point = DVec3::new(x * walk.lengths.x, height, z * walk.lengths.z);
                 let (slope_x, slope_z) = (line.slope_x[i].value(), line.slope_z[i].value());
                 (point, DVec3::new(slope_x, 1.0, slope_z).normalize())
             }
             Ground::Plane(plane) => {
+                let (x, z) = (line.entry_x[i].value(), line.entry_z[i].value());
                 let foot =
                     plane.normal * (plane.numerator + plane.normal.dot(self.plan.geometry.eye));
                 let [first, second] = plane.axes;

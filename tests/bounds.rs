@@ -79,9 +79,9 @@ impl Measurements {
     }
 }
 
-const VIEW: [&str; 3] = ["view, x", "view, y", "view, z"];
+const VIEW: [&str; 3] = ["view_x", "view_y", "view_z"];
 const LAST: [&str; 3] = ["last sample, x", "last sample, y", "last sample, z"];
-const ENTRY: [&str; 3] = ["denominator", "entry, x", "entry, z"];
+const ENTRY: [&str; 3] = ["denominator", "entry_x", "entry_z"];
 
 fn measure(scene: &Scene, side: u32, measurements: &mut Measurements) {
     let plan = support::plan(scene);
@@ -101,7 +101,7 @@ fn built_in_scenes_keep_their_bounds() {
         ("overview", [VIEW, LAST, ENTRY].concat()),
         ("flight", [VIEW, LAST, ENTRY].concat()),
         ("valley", [VIEW, LAST].concat()),
-        ("plane", vec!["view, x", "view, z", "denominator", "entry, x", "entry, z"]),
+        ("plane", vec!["view_x", "view_z", "denominator", "entry_x", "entry_z"]),
     ] {
         for words in [WordSize::Narrow, WordSize::Wide] {
             let mut scene = builtin(name, 1024, 1024);

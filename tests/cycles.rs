@@ -6,11 +6,12 @@ use terraline::engine::FixedWorld;
 use terraline::plan::Plan;
 use terraline::processor::{self, Processor};
 use terraline::scene::{self, Scene};
-use terraline::setup::table::{LERP_LATENCY, RAY_END, RAY_START};
 use terraline::setup::{Memory, Setup};
 use terraline::study::cost::{Cost, Measure};
 use terraline::study::error::Sample;
+use terraline::unit::interpolator::LERP_LATENCY;
 use terraline::unit::line::Work;
+use terraline::unit::stepper::{RAY_END, RAY_START};
 use terraline::word::stock::Narrow;
 
 fn planned(name: &str, sets: &[&str]) -> (Scene, Plan) {
@@ -25,7 +26,7 @@ fn chain_and_work(name: &str, sets: &[&str]) -> (Chain, Vec<Work>) {
     let (scene, plan) = planned(name, sets);
     let memory = Memory::new(&Narrow, &scene, &plan).expect("memory");
     let setup = Setup::new(Narrow, &scene, &plan, memory.as_ref()).expect("set-up");
-    let chain = Chain::new(&setup, &scene.machine, false);
+    let chain = Chain::new(&setup);
     let mut work = Vec::new();
     let mut line = Processor::new(&setup).wires();
     processor::run_lines(&setup, &mut line, 0..setup.lines, |line| work.extend(&line.work));
@@ -43,9 +44,10 @@ const PLAIN: Case = Case { reads: 1, divider: 1 };
 /// Completion cycles of all items, by stepping a clock and asking every unit what it can do.
 fn simulate(chain: &Chain, machine: &Case, work: &[Work], sink: Sink) -> Vec<u64> {
     let units = chain.stages.len();
+    let stepper = chain.stage("stepper");
     let cycles = |unit: usize, item: usize| -> u64 {
         match chain.stages[unit].name {
-            "stepper" => chain.stepper_work(work[item]).into(),
+            "stepper" => stepper.map_or(0, |stage| stage.timing.work.of(work[item])).into(),
             "interpolator" => machine.reads,
             "divider" => machine.divider,
             _ => 1,
@@ -63,13 +65,13 @@ fn simulate(chain: &Chain, machine: &Case, work: &[Work], sink: Sink) -> Vec<u64
             }
             let arrived = unit == 0
                 || taken[unit - 1].get(item).is_some_and(|&at| {
-                    at + cycles(unit - 1, item) - 1 + u64::from(chain.stages[unit - 1].latency)
+                    at + cycles(unit - 1, item) - 1 + u64::from(chain.stages[unit - 1].timing.latency)
                         <= now
                 });
             let idle = item == 0 || taken[unit][item - 1] + cycles(unit, item - 1) <= now;
             // Places are freed the cycle after the next unit takes an item.
             let gone = if unit + 1 < units { before[unit + 1] } else { item };
-            let room = item - gone < chain.stages[unit].depth as usize;
+            let room = item - gone < chain.stages[unit].timing.depth as usize;
             if arrived && idle && room && (unit + 1 < units || sink.is_ready(now)) {
                 taken[unit].push(now);
             }
@@ -124,6 +126,10 @@ fn queues_fill_and_drain() {
     assert!(stalled > 1000 && clock.limit() == "stepper");
 }
 
+fn stepper_work(chain: &Chain, work: Work) -> u32 {
+    chain.stage("stepper").expect("a height map").timing.work.of(work)
+}
+
 #[test]
 fn a_rays_work_is_the_sum_of_its_parts() {
     let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]"]);
@@ -131,10 +137,10 @@ fn a_rays_work_is_the_sum_of_its_parts() {
     let work = Work { trials: 3, samples: 5, groups: 2, halvings: 4, hits: 1 };
     let answer = memory + LERP_LATENCY;
     let expected = RAY_START + 3 * (1 + memory) + 5 + 2 * answer + 4 * (1 + answer) + RAY_END;
-    assert_eq!(chain.stepper_work(work), expected);
+    assert_eq!(stepper_work(&chain, work), expected);
     let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]", "kernel.deformation=1"]);
     let expected = RAY_START + 3 * (1 + memory) + 5 * 4 + 2 * answer + 4 * (4 + answer) + RAY_END;
-    assert_eq!(chain.stepper_work(work), expected);
+    assert_eq!(stepper_work(&chain, work), expected);
 }
 
 fn cost(name: &str, sets: &[&str]) -> Cost {

@@ -6,6 +6,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 use terraline::plan::Plan;
 use terraline::scene::{Attitude, Scene, Surface, WordSize};
+use terraline::unit::Unit as _;
 use terraline::unit::divider::Method;
 use terraline::unit::line::Entry;
 use terraline::word::array::{direct, non_restoring};
@@ -154,24 +155,24 @@ fn both_ways_agree<W: Complete>(world: W, scene: &Scene) -> usize {
     let (_, setup) = scenes::machine(world, scene, false);
     let divider = setup.divider.as_ref().expect("a divider");
     let mut line = terraline::unit::Line::new(&world, 0..setup.columns);
-    let mut start = setup.projector.first_line();
+    line.start = setup.projector.first_line();
     let mut met = 0;
     for number in 0..setup.lines {
         line.number = number;
-        setup.projector.run(&start, &mut line);
+        setup.projector.run(&mut line);
         let mut direct = line.clone();
-        divider.run(&mut line, Method::Array);
-        divider.run(&mut direct, Method::Direct);
+        divider.run_by(Method::Array, &mut line);
+        divider.run_by(Method::Direct, &mut direct);
         for i in 0..line.len() {
             assert_eq!(
-                (line.entry[i], line.ground_x[i], line.ground_z[i]),
-                (direct.entry[i], direct.ground_x[i], direct.ground_z[i]),
+                (line.entry[i], line.entry_x[i], line.entry_z[i]),
+                (direct.entry[i], direct.entry_x[i], direct.entry_z[i]),
                 "line {number}, column {i}, exponent {}",
                 divider.ratio_x.exponent
             );
         }
         met += line.entry.iter().filter(|&&entry| entry == Entry::Met).count();
-        setup.projector.next_line(&mut start);
+        setup.projector.next_line(&mut line.start);
     }
     met
 }

@@ -32,13 +32,13 @@ struct Written {
 }
 
 impl Written {
-    fn new(name: &str, sets: &[&str], full: bool, choice: Choice, hostile: u32) -> Self {
+    fn new(name: &str, sets: &[&str], full: bool, choice: Choice, corner_cases: u32) -> Self {
         let sets: Vec<String> = sets.iter().map(|&set| set.into()).collect();
         let scene = load(Some(name), &sets).expect("a scene");
-        Self::of(scene, full, choice, hostile, 11)
+        Self::of(scene, full, choice, corner_cases, 11)
     }
 
-    fn of(scene: Scene, full: bool, choice: Choice, hostile: u32, seed: u64) -> Self {
+    fn of(scene: Scene, full: bool, choice: Choice, corner_cases: u32, seed: u64) -> Self {
         let plan = Plan::new(&scene, None, full).expect("a plan");
         let world = FixedWorld::of(&scene, &plan).expect("a world");
         let selection = Selection::new(&plan, choice, seed);
@@ -48,7 +48,7 @@ impl Written {
             plan: &plan,
             world: &world,
             selection: &selection,
-            hostile,
+            corner_cases,
             seed,
             folder: &folder.path().join("vectors"),
         };
@@ -193,7 +193,7 @@ fn a_whole_frame_takes_as_many_cycles_as_are_counted() {
 }
 
 #[test]
-fn hostile_rows_reach_every_outcome() {
+fn corner_cases_reach_every_outcome() {
     let outcomes = |name: &str, file: &str, column: (&str, &str)| {
         let written = Written::new(name, &["screen.size=[8, 8]"], false, Choice::Pixels(1), 2000);
         let file = &written.files()[file];
@@ -212,7 +212,7 @@ fn hostile_rows_reach_every_outcome() {
     least(outcomes("overview", "stepper", ("out", "hit")), [300, 300, 1, 0]);
     least(outcomes("valley", "stepper", ("out", "hit")), [50, 1000, 0, 0]);
     least(outcomes("overview", "interpolator", ("in", "hit")), [0, 1000, 100, 0]);
-    least(outcomes("overview", "shader", ("in", "hit")), [50, 1000, 50, 50]);
+    least(outcomes("overview", "pixel", ("in", "hit")), [50, 1000, 50, 50]);
 }
 
 #[test]

@@ -61,125 +61,20 @@ module terraline #(
     output logic [         1:0] entry,             // from the divider: 0 met, 1 sky, 2 far
     output logic [       W-1:0] entry_x,           // where the ray enters, x
     output logic [       W-1:0] entry_z,           // z
-    output logic [         1:0] walk_hit,          // from the stepper: 0 sky, 1 surface, 2 side, 3 far
+    output logic [         1:0] stepper_hit,          // from the stepper: 0 sky, 1 surface, 2 side, 3 far
     output logic [       W-1:0] ground_x,          // place of the hit, x
     output logic [       W-1:0] ground_z,          // z
     output logic [        25:0] steps,             // index of the sample that hit
-    output logic [         1:0] surface_hit,       // from the interpolator: outcome
+    output logic [         1:0] interpolator_hit,       // from the interpolator: outcome
     output logic [       W-1:0] surface,           // surface height
     output logic [       W-1:0] slope_x,           // slope against x, negated
     output logic [       W-1:0] slope_z,           // against z
-    output logic [         1:0] pixel_hit          // from the shader: outcome
+    output logic [         1:0] shader_hit          // from the shader: outcome
 );
   localparam int PROJECTOR = 0, DIVIDER = 1, STEPPER = 2, INTERPOLATOR = 3, SHADER = 4, FRAME = 5;
 
-  logic [15:0] columns, lines;
-  logic signed [W-1:0] view_x_start, view_x_per_line, view_x_per_column, view_y_start,
-      view_y_per_line, view_y_per_column, view_z_start, view_z_per_line, view_z_per_column,
-      denominator_start, denominator_per_line, denominator_per_column, eye_x, eye_z;
-  logic signed [7:0] ratio_shift;
-  logic [5:0] ratio_bits;
-  logic from_eye;
-  logic signed [W-1:0] eye_y, highest, base;
-  logic [2:0] fineness;
-  logic [25:0] last;
-  logic halvings_fixed;
-  logic signed [7:0] halvings_bias;
-  logic [5:0] halvings_cap;
-  logic skipping;
-  logic [4:0] pyramid_top;
-  logic beyond_sky;
-  logic [CELL-1:0] map_columns, map_rows;
-  logic map_ends, sides, void_bits;
-  logic [1:0] form;
-  logic [5:0] blend_shift;
-  logic [4:0] table_log2;
-  logic slope_scaled;
-  logic signed [W-1:0] slope_scale_x, slope_scale_z;
-  logic [6:0] memory_latency;
-  logic [23:0] sky_color, far_color, side_color;
-  logic lit;
-  logic signed [W-1:0] toward_x, toward_y, toward_z, ambient;
-  logic signed [7:0] ramp_exponent;
-  logic signed [W-1:0] ramp_gain;
-  logic [3:0] ramp_last;
-  logic signed [W-1:0] mean_red, mean_green, mean_blue, swing_red, swing_green, swing_blue;
-  logic signed [7:0] contrast_exponent;
-  logic signed [W-1:0] contrast_gain;
-  logic full_from_fitted;
-  logic signed [W-1:0] full_from;
-
-  registers #(
-      .WIDE(WIDE)
-  ) registers (
-      .clock(clock),
-      .load(load && load_space == 3'd0),
-      .load_address(load_address[15:0]),
-      .load_data(load_data),
-      .columns(columns),
-      .lines(lines),
-      .view_x_start(view_x_start),
-      .view_x_per_line(view_x_per_line),
-      .view_x_per_column(view_x_per_column),
-      .view_y_start(view_y_start),
-      .view_y_per_line(view_y_per_line),
-      .view_y_per_column(view_y_per_column),
-      .view_z_start(view_z_start),
-      .view_z_per_line(view_z_per_line),
-      .view_z_per_column(view_z_per_column),
-      .denominator_start(denominator_start),
-      .denominator_per_line(denominator_per_line),
-      .denominator_per_column(denominator_per_column),
-      .eye_x(eye_x),
-      .eye_z(eye_z),
-      .ratio_shift(ratio_shift),
-      .ratio_bits(ratio_bits),
-      .from_eye(from_eye),
-      .eye_y(eye_y),
-      .highest(highest),
-      .base(base),
-      .fineness(fineness),
-      .last(last),
-      .halvings_fixed(halvings_fixed),
-      .halvings_bias(halvings_bias),
-      .halvings_cap(halvings_cap),
-      .skipping(skipping),
-      .pyramid_top(pyramid_top),
-      .beyond_sky(beyond_sky),
-      .map_columns(map_columns),
-      .map_rows(map_rows),
-      .map_ends(map_ends),
-      .sides(sides),
-      .void_bits(void_bits),
-      .form(form),
-      .blend_shift(blend_shift),
-      .table_log2(table_log2),
-      .slope_scaled(slope_scaled),
-      .slope_scale_x(slope_scale_x),
-      .slope_scale_z(slope_scale_z),
-      .memory_latency(memory_latency),
-      .sky_color(sky_color),
-      .far_color(far_color),
-      .side_color(side_color),
-      .lit(lit),
-      .toward_x(toward_x),
-      .toward_y(toward_y),
-      .toward_z(toward_z),
-      .ambient(ambient),
-      .ramp_exponent(ramp_exponent),
-      .ramp_gain(ramp_gain),
-      .ramp_last(ramp_last),
-      .mean_red(mean_red),
-      .mean_green(mean_green),
-      .mean_blue(mean_blue),
-      .swing_red(swing_red),
-      .swing_green(swing_green),
-      .swing_blue(swing_blue),
-      .contrast_exponent(contrast_exponent),
-      .contrast_gain(contrast_gain),
-      .full_from_fitted(full_from_fitted),
-      .full_from(full_from)
-  );
+  // ---- Generated: the bank of coefficients
+  // ---- End of what is generated
 
   // ---- Raster scan and projector
   logic running, last_column, step;
@@ -241,8 +136,8 @@ module terraline #(
       .reset(reset),
       .eye_x(eye_x),
       .eye_z(eye_z),
-      .ratio_shift(ratio_shift),
-      .ratio_bits(ratio_bits),
+      .ratio_shift(ratio_shift_x),
+      .ratio_bits(ratio_bits_x),
       .in_valid(divider_valid),
       .in_ready(divider_ready),
       .in_view_x(view_x),
@@ -285,15 +180,15 @@ module terraline #(
         .base(base),
         .fineness(fineness),
         .last(last),
-        .halvings_fixed(halvings_fixed),
-        .halvings_bias(halvings_bias),
-        .halvings_cap(halvings_cap),
+        .halvings_fixed(bisection_fixed),
+        .halvings_bias(bisection_bias),
+        .halvings_cap(bisection_cap),
         .skipping(skipping),
         .pyramid_top(pyramid_top),
         .beyond_sky(beyond_sky),
         .map_columns(map_columns),
         .map_rows(map_rows),
-        .map_ends(map_ends),
+        .map_ends(map_edge == 2'd0),
         .sides(sides),
         .void_bits(void_bits),
         .in_valid(ray_valid),
@@ -322,7 +217,7 @@ module terraline #(
         .answer_tag(sample_answer_tag),
         .out_valid(walk_valid),
         .out_ready(walk_ready),
-        .out_hit(walk_hit),
+        .out_hit(stepper_hit),
         .out_ground_x(ground_x),
         .out_ground_z(ground_z),
         .out_steps(steps)
@@ -339,10 +234,10 @@ module terraline #(
         .reset(reset),
         .form(form),
         .blend_shift(blend_shift),
-        .table_log2(table_log2),
+        .table_log2(kernel_log2),
         .map_columns(map_columns),
         .map_rows(map_rows),
-        .map_ends(map_ends),
+        .map_ends(map_edge == 2'd0),
         .void_bits(void_bits),
         .slope_scaled(1'b0),
         .slope_scale_x(W'(0)),
@@ -388,7 +283,7 @@ module terraline #(
         .memory_latency(memory_latency),
         .in_valid(walk_valid),
         .in_ready(walk_ready),
-        .in_hit(walk_hit),
+        .in_hit(stepper_hit),
         .in_ground_x(ground_x),
         .in_ground_z(ground_z),
         .request_valid(place_valid),
@@ -404,7 +299,7 @@ module terraline #(
         .answer_tag(place_answer_tag),
         .out_valid(surface_valid),
         .out_ready(surface_ready),
-        .out_hit(surface_hit),
+        .out_hit(interpolator_hit),
         .out_surface(surface),
         .out_slope_x(slope_x),
         .out_slope_z(slope_z)
@@ -421,10 +316,10 @@ module terraline #(
         .reset(reset),
         .form(form),
         .blend_shift(blend_shift),
-        .table_log2(table_log2),
+        .table_log2(kernel_log2),
         .map_columns(map_columns),
         .map_rows(map_rows),
-        .map_ends(map_ends),
+        .map_ends(map_edge == 2'd0),
         .void_bits(void_bits),
         .slope_scaled(slope_scaled),
         .slope_scale_x(slope_scale_x),
@@ -465,9 +360,9 @@ module terraline #(
         .far_color(far_color),
         .side_color(side_color),
         .lit(lit),
-        .toward_x(toward_x),
-        .toward_y(toward_y),
-        .toward_z(toward_z),
+        .toward_x(light_x),
+        .toward_y(light_y),
+        .toward_z(light_z),
         .ambient(ambient),
         .ramp_exponent(ramp_exponent),
         .ramp_gain(ramp_gain),
@@ -478,7 +373,7 @@ module terraline #(
         .load_data(load_data),
         .in_valid(surface_valid),
         .in_ready(surface_ready),
-        .in_hit(surface_hit),
+        .in_hit(interpolator_hit),
         .in_surface(surface),
         .in_slope_x(slope_x),
         .in_slope_z(slope_z),
@@ -486,7 +381,7 @@ module terraline #(
         .out_valid(pixel_valid),
         .out_ready(pixel_ready),
         .out_color(pixel_color),
-        .out_hit(pixel_hit),
+        .out_hit(shader_hit),
         .out_tag()
     );
     assign takes[SHADER] = surface_valid && surface_ready;
@@ -525,7 +420,7 @@ module terraline #(
         .out_valid(pixel_valid),
         .out_ready(pixel_ready),
         .out_color(pixel_color),
-        .out_hit(pixel_hit),
+        .out_hit(shader_hit),
         .out_tag()
     );
     assign takes[SHADER:STEPPER] = {entry_valid && checker_ready, 2'b00};
@@ -533,8 +428,8 @@ module terraline #(
     // No height map: no stepper, no interpolation, no memories.
     assign {bound_read, bound_level, bound_column, bound_row} = '0;
     assign {sample_read, sample_column, sample_row, hit_read, hit_column, hit_row} = '0;
-    assign {walk_hit, ground_x, ground_z, steps} = '0;
-    assign {surface_hit, surface, slope_x, slope_z} = '0;
+    assign {stepper_hit, ground_x, ground_z, steps} = '0;
+    assign {interpolator_hit, surface, slope_x, slope_z} = '0;
   end
 
   assign takes[FRAME] = pixel_valid && pixel_ready;

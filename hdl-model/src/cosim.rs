@@ -2,16 +2,11 @@
 //! and in every cycle.
 
 use terraline::clock::{Chain, Clock, Sink};
-use terraline::frame::Hit;
 use terraline::processor::Processor;
-use terraline::scene::Machine as Parameters;
-use terraline::setup::{Back, Setup};
-use terraline::unit::Line;
-use terraline::unit::line::Entry;
+use terraline::setup::Setup;
 use terraline::word::Complete;
 
-use crate::coefficients::raw;
-use crate::machine::{Machine, UNITS, Words, wires};
+use crate::machine::{Machine, STAGES, Words, port_name};
 
 /// The first differences that are described.
 const DESCRIBED: usize = 8;
@@ -58,11 +53,11 @@ pub struct Window {
 
 /// What the RTL did with the frame.
 struct Run {
-    /// Per unit, the cycles in which it took its items.
+    /// Per stage, the cycles in which it took its items.
     taken: Vec<Vec<u64>>,
-    /// Per unit, what it handed on.
+    /// Per stage, what it handed on.
     passed: Vec<Vec<Words>>,
-    waits: [u64; UNITS.len()],
+    waits: [u64; STAGES.len()],
 }
 
 /// Draws a frame with both, and compares.
@@ -72,12 +67,11 @@ struct Run {
 /// memories.
 pub fn compare<W: Complete>(
     setup: &Setup<W>,
-    parameters: &Parameters,
     sink: Sink,
     trace: Option<(&str, Window)>,
 ) -> Result<Outcome, String> {
-    let machine = Machine::new(setup, parameters)?;
-    compare_with(machine, setup, parameters, sink, trace)
+    let machine = Machine::new(setup)?;
+    compare_with(machine, setup, sink, trace)
 }
 
 /// Compares the frame of a loaded machine with the emulator's frame of a set-up.
@@ -87,15 +81,14 @@ pub fn compare<W: Complete>(
 pub fn compare_with<W: Complete>(
     mut machine: Machine<'_, W>,
     setup: &Setup<W>,
-    parameters: &Parameters,
     sink: Sink,
     trace: Option<(&str, Window)>,
 ) -> Result<Outcome, String> {
-    let chain = Chain::new(setup, parameters, false);
+    let chain = Chain::new(setup);
     let fitted: Vec<usize> = chain
         .stages
         .iter()
-        .filter_map(|stage| UNITS.iter().position(|unit| *unit == stage.name))
+        .filter_map(|stage| STAGES.iter().position(|unit| *unit == stage.name))
         .collect();
     let pixels = u64::from(setup.columns) * u64::from(setup.lines);
     let mut clock = Clock::new(chain.clone()).with_sink(sink);
@@ -108,9 +101,9 @@ pub fn compare_with<W: Complete>(
     let drawn = draw(&mut machine, pixels, limit, sink, trace)?;
     let mut outcome = Outcome {
         pixels,
-        cycles: drawn.taken[UNITS.len() - 1].last().map_or(0, |last| last + 1),
+        cycles: drawn.taken[STAGES.len() - 1].last().map_or(0, |last| last + 1),
         expected_cycles: 0,
-        waits: fitted.iter().map(|&unit| (UNITS[unit], drawn.waits[unit])).collect(),
+        waits: fitted.iter().map(|&unit| (STAGES[unit], drawn.waits[unit])).collect(),
         differences: 0,
         described: Vec::new(),
     };
@@ -121,7 +114,7 @@ pub fn compare_with<W: Complete>(
         for column in 0..line.len() {
             clock.take(line.work[column]);
             let place =
-                |unit: usize| format!("line {}, column {column}, {}", line.number, UNITS[unit]);
+                |unit: usize| format!("line {}, column {column}, {}", line.number, STAGES[unit]);
             for (&unit, expected) in fitted.iter().zip(clock.entered()) {
                 let found = drawn.taken[unit].get(at).copied();
                 if found != Some(expected) {
@@ -132,17 +125,13 @@ pub fn compare_with<W: Complete>(
                     });
                 }
                 let Some(found) = drawn.passed[unit].get(at) else { continue };
-                for (wire, (&name, expected)) in
-                    wires(unit).iter().zip(emulated(setup, &line, column, unit)).enumerate()
-                {
-                    if expected.is_some_and(|expected| expected != found[wire]) {
+                for &(wire, found) in found {
+                    let expected = line.bits(wire, column);
+                    if line.is(wire.driven(), column) && expected != Some(found) {
                         outcome.differs(|| {
-                            format!(
-                                "{}: {name} is {:#x}, not {:#x}",
-                                place(unit),
-                                found[wire],
-                                expected.unwrap_or_default()
-                            )
+                            let name = port_name(STAGES[unit], wire);
+                            let expected = expected.unwrap_or_default();
+                            format!("{}: {name} is {found:#x}, not {expected:#x}", place(unit))
                         });
                     }
                 }
@@ -162,16 +151,16 @@ fn draw<W: Complete>(
     trace: Option<(&str, Window)>,
 ) -> Result<Run, String> {
     let mut run = Run {
-        taken: vec![Vec::new(); UNITS.len()],
-        passed: vec![Vec::new(); UNITS.len()],
-        waits: [0; UNITS.len()],
+        taken: vec![Vec::new(); STAGES.len()],
+        passed: vec![Vec::new(); STAGES.len()],
+        waits: [0; STAGES.len()],
     };
     let window = trace.map(|(_, window)| window);
     if let Some((path, _)) = trace {
         machine.open_trace(path)?;
     }
     machine.start();
-    let frame = UNITS.len() - 1;
+    let frame = STAGES.len() - 1;
     let mut cycle = 0;
     // A machine that falls far behind is wrong, and might never end.
     while cycle < limit && (run.taken[frame].len() as u64) < pixels {
@@ -181,7 +170,7 @@ fn draw<W: Complete>(
         }
         let passed = &mut run.passed;
         let now = machine.cycle(sink, |unit, words| passed[unit].push(words))?;
-        for unit in 0..UNITS.len() {
+        for unit in 0..STAGES.len() {
             if now.takes >> unit & 1 == 1 {
                 run.taken[unit].push(cycle);
             }
@@ -190,61 +179,4 @@ fn draw<W: Complete>(
         cycle += 1;
     }
     Ok(run)
-}
-
-/// What the emulator has on a unit's output wires; `None` where nobody looks at them.
-fn emulated<W: Complete>(
-    setup: &Setup<W>,
-    line: &Line<W>,
-    i: usize,
-    unit: usize,
-) -> [Option<i64>; 4] {
-    let hit = line.hit[i];
-    let only = |condition: bool, word: i64| condition.then_some(word);
-    match unit {
-        0 => {
-            let projector = &setup.projector;
-            [
-                Some(raw(line.view_x[i])),
-                only(projector.y.is_some(), raw(line.view_y[i])),
-                Some(raw(line.view_z[i])),
-                only(projector.denominator.is_some(), raw(line.denominator[i])),
-            ]
-        }
-        1 => {
-            let met = line.entry[i] == Entry::Met;
-            // On a height map the stepper has gone on from there.
-            let there = met && matches!(setup.back, Back::Plane(_));
-            [
-                Some(line.entry[i] as i64),
-                only(there, raw(line.ground_x[i])),
-                only(there, raw(line.ground_z[i])),
-                None,
-            ]
-        }
-        2 => {
-            let walked = setup.divider.is_none() || line.entry[i] == Entry::Met;
-            [
-                Some(hit as i64),
-                only(walked, raw(line.ground_x[i])),
-                only(walked, raw(line.ground_z[i])),
-                Some(line.steps[i].into()),
-            ]
-        }
-        3 => {
-            let met = matches!(hit, Hit::Surface | Hit::Side);
-            [
-                Some(hit as i64),
-                only(met, raw(line.surface[i])),
-                only(met, raw(line.slope_x[i])),
-                only(met, raw(line.slope_z[i])),
-            ]
-        }
-        4 => {
-            let [red, green, blue] = line.color[i];
-            let color = u32::from_le_bytes([red, green, blue, 0]);
-            [Some(hit as i64), Some(color.into()), None, None]
-        }
-        _ => [None; 4],
-    }
 }

@@ -2,8 +2,8 @@
 //! between the units in which cycle.
 
 use terraline::clock::Sink;
-use terraline::scene::{Machine as Parameters, RatioForm};
 use terraline::setup::{Back, Setup, TerrainUnits};
+use terraline::unit::Wire;
 use terraline::unit::height_memory::Edge;
 use terraline::unit::interpolator::Form;
 use terraline::word::Complete;
@@ -12,8 +12,9 @@ use crate::coefficients::{self, raw};
 use crate::memory::Delay;
 use crate::{Model, Port};
 
-/// Units, in the order of the machine's `takes`.
-pub const UNITS: [&str; 6] = ["projector", "divider", "stepper", "interpolator", "shader", "frame"];
+/// Stages of the elastic chain, in the order of the machine's `takes`.
+pub const STAGES: [&str; 6] =
+    ["projector", "divider", "stepper", "interpolator", "shader", "frame"];
 
 /// Nodes of the four banks, and which of them have no data.
 type Nodes = ([u64; 4], u64);
@@ -25,19 +26,46 @@ const SLOPES: u64 = 2;
 const RSQRT: u64 = 3;
 const RAMP: u64 = 4;
 
-/// What a unit handed on for one pixel: words on its output wires, in the order of
-/// [`wires`].
-pub type Words = [i64; 4];
+/// What a stage handed on for one pixel: the bits on those of its wires that the RTL shows.
+pub type Words = Vec<(Wire, i64)>;
 
-/// Output wires of each unit but the frame.
-pub const fn wires(unit: usize) -> &'static [&'static str] {
-    match unit {
-        0 => &["view_x", "view_y", "view_z", "denominator"],
-        1 => &["entry", "entry_x", "entry_z"],
-        2 => &["walk_hit", "ground_x", "ground_z", "steps"],
-        3 => &["surface_hit", "surface", "slope_x", "slope_z"],
-        4 => &["pixel_hit", "pixel_color"],
-        _ => &[],
+/// The port that shows a wire behind a stage. Every stage behind the stepper hands the outcome on.
+pub fn port_name(stage: &str, wire: Wire) -> String {
+    match wire {
+        Wire::Hit => format!("{stage}_hit"),
+        Wire::Color => "pixel_color".into(),
+        _ => wire.name().into(),
+    }
+}
+
+/// The wires that a stage of a set-up hands on, whether the RTL shows them or not.
+pub fn wires<W: Complete>(setup: &Setup<W>, stage: &str) -> Vec<Wire> {
+    let chain = setup.chain();
+    let units = chain.iter().filter(|unit| unit.description().stage == stage);
+    let mut wires: Vec<Wire> = units.flat_map(|unit| unit.outputs()).collect();
+    if matches!(stage, "interpolator" | "shader") && !wires.contains(&Wire::Hit) {
+        wires.insert(0, Wire::Hit);
+    }
+    wires
+}
+
+/// A wire that the RTL shows.
+#[derive(Clone, Copy, Debug)]
+struct Probe {
+    wire: Wire,
+    port: Port,
+}
+
+impl Probe {
+    /// The bits, as the emulator has them.
+    fn bits(self, rtl: &Model) -> i64 {
+        let bits = rtl.get(self.port);
+        match self.wire {
+            // Red is in the low byte there.
+            Wire::Color => i64::from((bits as u32).swap_bytes() >> 8),
+            wire if wire.register().is_some() => rtl.signed(self.port),
+            _ => bits as i64,
+        }
     }
 }
 
@@ -56,8 +84,7 @@ pub struct Machine<'a, W: Complete> {
     rtl: Model,
     units: Option<&'a TerrainUnits<W>>,
     latency: u32,
-    probes: Vec<Vec<Port>>,
-    unsigned: Vec<Vec<bool>>,
+    probes: Vec<Vec<Probe>>,
     takes: Port,
     waits: Port,
     pixel_ready: Port,
@@ -71,7 +98,7 @@ pub struct Machine<'a, W: Complete> {
 }
 
 /// The model that draws a set-up, or why there is none.
-pub fn model_for<W: Complete>(setup: &Setup<W>, parameters: &Parameters) -> Result<String, String> {
+pub fn model_for<W: Complete>(setup: &Setup<W>) -> Result<String, String> {
     let size = setup.world.name();
     if !matches!(size, "narrow" | "wide") {
         return Err("format: the RTL has stock words only; leave [format] and --format out".into());
@@ -88,7 +115,7 @@ pub fn model_for<W: Complete>(setup: &Setup<W>, parameters: &Parameters) -> Resu
             format!("terrain_{size}{}", if stretch { "_3x3" } else { "" })
         }
     };
-    if parameters.ratio == RatioForm::Serial && setup.divider.is_some() {
+    if setup.divider.as_ref().is_some_and(|divider| divider.serial) {
         // Of height maps, one machine has it.
         if matches!(setup.back, Back::Terrain(_)) && name != "terrain_narrow" {
             return Err(
@@ -107,16 +134,16 @@ impl<'a, W: Complete> Machine<'a, W> {
     ///
     /// # Errors
     /// If the RTL cannot draw this set-up: its words are no stock words, or the map repeats.
-    pub fn new(setup: &'a Setup<W>, parameters: &Parameters) -> Result<Self, String> {
-        let mut rtl = Model::new(&model_for(setup, parameters)?);
-        let ports = |names: &[&str]| names.iter().map(|name| rtl.port(name)).collect::<Vec<_>>();
+    pub fn new(setup: &'a Setup<W>) -> Result<Self, String> {
+        let mut rtl = Model::new(&model_for(setup)?);
         let six = |names: [&str; 6]| names.map(|name| rtl.port(name));
-        let probes = (0..UNITS.len()).map(|unit| ports(wires(unit))).collect();
-        let is_code = |name: &&str| {
-            ["entry", "walk_hit", "steps", "surface_hit", "pixel_hit", "pixel_color"].contains(name)
+        let probe = |stage: &str, wire| {
+            rtl.find(&port_name(stage, wire)).map(|port| Probe { wire, port })
         };
-        let unsigned =
-            (0..UNITS.len()).map(|unit| wires(unit).iter().map(is_code).collect()).collect();
+        let of_stage = |stage: &&str| {
+            wires(setup, stage).into_iter().filter_map(|wire| probe(stage, wire)).collect()
+        };
+        let probes = STAGES.iter().map(of_stage).collect();
         let [takes, waits, pixel_ready] =
             ["takes", "waits", "pixel_ready"].map(|name| rtl.port(name));
         let bound_ports =
@@ -131,18 +158,17 @@ impl<'a, W: Complete> Machine<'a, W> {
         ]);
         let hit_ports =
             six(["hit_read", "hit_column", "hit_row", "hit_data_valid", "hit_data", "hit_void"]);
-        let latency = parameters.memory_latency;
+        let latency = setup.memory_latency;
         let units = match &setup.back {
             Back::Terrain(units) => Some(&**units),
             Back::Plane(_) => None,
         };
-        load(&mut rtl, setup, parameters);
+        load(&mut rtl, setup);
         Ok(Self {
             rtl,
             units,
             latency,
             probes,
-            unsigned,
             takes,
             waits,
             pixel_ready,
@@ -154,6 +180,11 @@ impl<'a, W: Complete> Machine<'a, W> {
             hit_ports,
             start: 0,
         })
+    }
+
+    /// The wires behind a stage that the RTL shows.
+    pub fn shown(&self, stage: usize) -> impl Iterator<Item = Wire> + '_ {
+        self.probes[stage].iter().map(|probe| probe.wire)
     }
 
     /// Opens a trace in FST; see [`Model::trace`].
@@ -219,16 +250,11 @@ impl<'a, W: Complete> Machine<'a, W> {
             self.rtl.settle();
         }
         let cycle = Cycle { takes: self.rtl.get(self.takes), waits: self.rtl.get(self.waits) };
-        for taker in 1..UNITS.len() {
+        for taker in 1..STAGES.len() {
             if cycle.takes >> taker & 1 == 1 {
                 let unit = self.before(taker);
-                let mut words = Words::default();
-                for (at, (&port, &unsigned)) in
-                    self.probes[unit].iter().zip(&self.unsigned[unit]).enumerate()
-                {
-                    words[at] =
-                        if unsigned { self.rtl.get(port) as i64 } else { self.rtl.signed(port) };
-                }
+                let words = self.probes[unit].iter();
+                let words = words.map(|probe| (probe.wire, probe.bits(&self.rtl))).collect();
                 passed(unit, words);
             }
         }
@@ -249,7 +275,7 @@ impl<'a, W: Complete> Machine<'a, W> {
 }
 
 /// Loads coefficients and tables.
-fn load<W: Complete>(rtl: &mut Model, setup: &Setup<W>, parameters: &Parameters) {
+fn load<W: Complete>(rtl: &mut Model, setup: &Setup<W>) {
     let [enable, space, address, data] =
         ["load", "load_space", "load_address", "load_data"].map(|name| rtl.port(name));
     let mut put = |in_space: u64, at: usize, word: u64| {
@@ -259,8 +285,8 @@ fn load<W: Complete>(rtl: &mut Model, setup: &Setup<W>, parameters: &Parameters)
         rtl.set(data, word);
         rtl.edge();
     };
-    for (at, word) in coefficients::values(setup, parameters).words() {
-        put(COEFFICIENTS, at as usize, word);
+    for (at, word) in coefficients::words(setup) {
+        put(COEFFICIENTS, at, word as u64);
     }
     if let Back::Terrain(units) = &setup.back {
         if let Some(rom) = &units.interpolator.rom {

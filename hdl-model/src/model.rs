@@ -53,6 +53,11 @@ impl Model {
         find(&self.ports, name)
     }
 
+    /// A port by its name, if the module has it.
+    pub fn find(&self, name: &str) -> Option<Port> {
+        self.ports.iter().any(|port| port.name == name).then(|| self.port(name))
+    }
+
     /// Drives an input of up to 64 bits with the low bits of a word.
     ///
     /// # Panics

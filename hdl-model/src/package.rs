@@ -5,13 +5,15 @@ use std::fmt::Write as _;
 
 use terraline::plan::WordClass;
 use terraline::setup::table;
+use terraline::unit::coefficient::Coefficient;
+use terraline::unit::{divider, interpolator, kernel_rom, projector, shader, stepper};
 use terraline::word::Register;
 
-use crate::coefficients::{Bits, COEFFICIENTS, Coefficient};
+use crate::coefficients::{self, Bits, bits};
 
-const HEAD: &str = "// Generated from the register table (src/setup/table.rs) and the list of \
-                    coefficients\n// (hdl-model/src/coefficients.rs) by `cargo run -p \
-                    terraline-hdl -- generate`; a test compares.\n";
+const HEAD: &str = "// Generated from the register table (src/setup/table.rs) and the lists of \
+                    coefficients\n// (src/unit/coefficient.rs) and cycles (src/unit) by `cargo run \
+                    -p terraline-hdl -- generate`; a\n// test compares.\n";
 
 /// rtl/terraline_pkg.sv: widths, binary points, latencies and depths.
 pub fn package() -> String {
@@ -42,30 +44,38 @@ pub fn package() -> String {
     }
     out.push_str("\n  // Cycles (docs/cycles.md)\n");
     for (name, value, what) in [
-        ("PROJECTOR_LATENCY", 1, "L of the projector"),
-        ("PROJECTOR_DEPTH", 2, "D of the projector"),
-        ("DIVIDER_ENDS", table::DIVIDER_ENDS, "stages of the divider besides one per quotient bit"),
-        ("STEPPER_DEPTH", 2, "D of the stepper and of the serial divider"),
+        ("PROJECTOR_LATENCY", projector::TIMING.latency, "L of the projector"),
+        ("PROJECTOR_DEPTH", projector::TIMING.depth, "D of the projector"),
+        ("DIVIDER_ENDS", divider::ENDS, "stages of the divider besides one per quotient bit"),
+        (
+            "STEPPER_DEPTH",
+            stepper::timing(1, false, 1).depth,
+            "D of the stepper and of the serial divider",
+        ),
         (
             "RAY_START",
-            table::RAY_START,
+            stepper::RAY_START,
             "cycles to turn a view vector into a step and to begin with it",
         ),
-        ("RAY_END", table::RAY_END, "cycles of a hit besides its halvings"),
-        ("KERNEL_LATENCY", table::KERNEL_LATENCY, "cycles of kernel ROM and blend"),
-        ("LERP_LATENCY", table::LERP_LATENCY, "stages of a height behind nodes and weights"),
-        ("SLOPE_LATENCY", table::SLOPE_LATENCY, "stages of the slopes' factors"),
-        ("SHADER_LATENCY", table::SHADER_LATENCY, "L of the shader"),
-        ("SHADER_DEPTH", table::SHADER_LATENCY + 1, "D of the shader"),
+        ("RAY_END", stepper::RAY_END, "cycles of a hit besides its halvings"),
+        ("KERNEL_LATENCY", kernel_rom::LATENCY, "cycles of kernel ROM and blend"),
+        (
+            "LERP_LATENCY",
+            interpolator::LERP_LATENCY,
+            "stages of a height behind nodes and weights",
+        ),
+        ("SLOPE_LATENCY", interpolator::SLOPE_LATENCY, "stages of the slopes' factors"),
+        ("SHADER_LATENCY", shader::TIMING.latency, "L of the shader"),
+        ("SHADER_DEPTH", shader::TIMING.depth, "D of the shader"),
     ] {
         let _ = writeln!(out, "  localparam int {name} = {value};  // {what}");
     }
     out.push_str("\n  // Addresses of coefficients\n");
-    for (address, coefficient) in COEFFICIENTS.iter().enumerate() {
+    for (address, coefficient) in coefficients::all().enumerate() {
         let _ = writeln!(
             out,
             "  localparam int ADDRESS_{} = {address};",
-            coefficient.name.to_uppercase()
+            coefficient.name().to_uppercase()
         );
     }
     out.push_str("endpackage\n");
@@ -83,22 +93,23 @@ pub fn registers() -> String {
          input logic [15:0] load_address,  // terraline_pkg::ADDRESS_...\n    \
          input logic [(WIDE == 1 ? 64 : 32)-1:0] load_data,  // in the low bits\n"
     );
-    for (address, coefficient) in COEFFICIENTS.iter().enumerate() {
-        let comma = if address + 1 == COEFFICIENTS.len() { "" } else { "," };
+    let last = coefficients::all().last();
+    for coefficient in coefficients::all() {
+        let comma = if Some(coefficient) == last { "" } else { "," };
         let _ = writeln!(
             out,
             "    output logic {}{}{comma}  // {}",
             range(coefficient),
-            coefficient.name,
-            coefficient.meaning
+            coefficient.name(),
+            coefficient.meaning()
         );
     }
     out.push_str(
         ");\n  localparam int CELL = WIDE == 1 ? 26 : 12;\n\n  always_ff @(posedge clock) begin\n    \
          if (load) begin\n      case (load_address)\n",
     );
-    for coefficient in COEFFICIENTS {
-        let bits = match coefficient.bits {
+    for coefficient in coefficients::all() {
+        let bits = match bits(coefficient) {
             Bits::Word => String::new(),
             Bits::Cell => "[CELL-1:0]".into(),
             Bits::Unsigned(1) => "[0]".into(),
@@ -107,16 +118,45 @@ pub fn registers() -> String {
         let _ = writeln!(
             out,
             "        16'(terraline_pkg::ADDRESS_{}): {} <= load_data{bits};",
-            coefficient.name.to_uppercase(),
-            coefficient.name
+            coefficient.name().to_uppercase(),
+            coefficient.name()
         );
     }
     out.push_str("        default: ;\n      endcase\n    end\n  end\nendmodule\n");
     out
 }
 
-fn range(coefficient: &Coefficient) -> String {
-    match coefficient.bits {
+/// Where the generated part of rtl/terraline.sv begins and ends.
+const BANK: [&str; 2] = ["  // ---- Generated: the bank of coefficients\n", "  // ---- End of what is generated\n"];
+
+/// rtl/terraline.sv, its bank of coefficients made anew.
+///
+/// # Errors
+/// If the marks of the generated part are missing.
+pub fn with_bank(machine: &str) -> Result<String, String> {
+    let missing = || format!("rtl/terraline.sv has no line `{}`", BANK[0].trim());
+    let (before, rest) = machine.split_once(BANK[0]).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(BANK[1]).ok_or_else(missing)?;
+    let mut bank = String::new();
+    for coefficient in coefficients::all() {
+        let range = range(coefficient).replace("(WIDE == 1 ? 64 : 32)", "W").replace("(WIDE == 1 ? 26 : 12)", "CELL");
+        let _ = writeln!(bank, "  logic {range}{};", coefficient.name());
+    }
+    bank.push_str(
+        "\n  registers #(\n      .WIDE(WIDE)\n  ) registers (\n      .clock(clock),\n      \
+         .load(load && load_space == 3'd0),\n      .load_address(load_address[15:0]),\n      \
+         .load_data(load_data)",
+    );
+    for coefficient in coefficients::all() {
+        let name = coefficient.name();
+        let _ = write!(bank, ",\n      .{name}({name})");
+    }
+    bank.push_str("\n  );\n");
+    Ok([before, BANK[0], &bank, BANK[1], after].concat())
+}
+
+fn range(coefficient: Coefficient) -> String {
+    match bits(coefficient) {
         Bits::Word => "signed [(WIDE == 1 ? 64 : 32)-1:0] ".into(),
         Bits::Cell => "[(WIDE == 1 ? 26 : 12)-1:0] ".into(),
         Bits::Unsigned(1) => String::new(),

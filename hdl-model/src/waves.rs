@@ -4,10 +4,11 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use terraline::plan::{Ground, Plan};
-use terraline::word::Register;
+use terraline::setup::{Back, Setup};
+use terraline::unit::Wire;
+use terraline::word::{Complete, Register};
 
-use crate::machine::{UNITS, wires};
+use crate::machine::{Machine, STAGES, port_name};
 
 /// Flags of GTKWave: right-justified hexadecimal, the same as signed decimal, and with a shift for
 /// the binary point.
@@ -18,40 +19,32 @@ const FIXED_POINT: u64 = 1 << 30;
 /// A comment line between groups.
 const BLANK: u64 = 0x200;
 
-/// Bits after the point of a wire between units; `None` where it is no word.
-fn point(wire: &str, plan: &Plan) -> Option<u32> {
-    let words = plan.words();
-    let register = match wire {
-        "view_x" | "view_y" | "view_z" | "denominator" => Register::ViewX,
-        "entry_x" | "entry_z" | "ground_x" | "ground_z" => Register::GroundX,
-        "surface" | "slope_x" | "slope_z" => Register::Surface,
-        "bound" => Register::Node,
-        _ => return None,
-    };
-    Some(words.fixed(register).point)
-}
-
 /// The save file beside a trace.
-pub fn gtkw(trace: &Path, plan: &Plan) -> String {
-    let terrain = matches!(plan.ground, Ground::Terrain(_));
-    let width = plan.words().width;
+pub fn gtkw<W: Complete>(trace: &Path, setup: &Setup<W>, machine: &Machine<'_, W>) -> String {
+    let point = |register| setup.world.fixed(register).map(|fixed| fixed.point);
+    let width = setup.world.fixed(Register::ViewX).map_or(0, |fixed| fixed.width);
+    let terrain = matches!(setup.back, Back::Terrain(_));
     let name = trace.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
     let mut out = Waves(format!("[dumpfile] \"{name}\"\n"));
-    out.group("clock, units that take an item, units before which one waits");
+    out.group("clock, stages that take an item, stages before which one waits");
     out.signal("clock", 1, HEXADECIMAL, None);
     out.signal("takes", 6, HEXADECIMAL, None);
     out.signal("waits", 6, HEXADECIMAL, None);
-    for (unit, title) in UNITS.iter().enumerate().filter(|(unit, _)| !wires(*unit).is_empty()) {
-        if !terrain && matches!(*title, "stepper" | "interpolator") {
-            continue;
+    for (at, stage) in STAGES.into_iter().enumerate() {
+        let wires: Vec<Wire> = machine.shown(at).collect();
+        if !wires.is_empty() {
+            out.group(&format!("from the {stage}"));
         }
-        out.group(&format!("from the {title}"));
-        for &wire in wires(unit) {
-            match point(wire, plan) {
-                Some(point) => out.signal(wire, width, SIGNED | FIXED_POINT, Some(point)),
-                None if wire == "steps" => out.signal(wire, 26, DECIMAL, None),
-                None if wire == "pixel_color" => out.signal(wire, 24, HEXADECIMAL, None),
-                None => out.signal(wire, 2, DECIMAL, None),
+        for wire in wires {
+            let name = port_name(stage, wire);
+            match wire {
+                Wire::Steps => out.signal(&name, 26, DECIMAL, None),
+                Wire::Color => out.signal(&name, 24, HEXADECIMAL, None),
+                Wire::Entry | Wire::Hit => out.signal(&name, 2, DECIMAL, None),
+                _ => {
+                    let point = wire.register().and_then(point);
+                    out.signal(&name, width, SIGNED | FIXED_POINT, point);
+                }
             }
         }
     }
@@ -60,7 +53,7 @@ pub fn gtkw(trace: &Path, plan: &Plan) -> String {
         out.signal("bound_read", 1, HEXADECIMAL, None);
         out.signal("bound_level", 5, DECIMAL, None);
         out.signal("bound_valid", 1, HEXADECIMAL, None);
-        out.signal("bound", width, SIGNED | FIXED_POINT, point("bound", plan));
+        out.signal("bound", width, SIGNED | FIXED_POINT, point(Register::Node));
     }
     out.0
 }

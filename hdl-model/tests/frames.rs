@@ -26,7 +26,7 @@ impl InFixedWorld for Cosimulation<'_> {
     fn run<W: Complete + Enterable>(self, world: W) -> Outcome {
         let memory = Memory::new(&world, self.scene, self.plan).expect("memories");
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref()).expect("a set-up");
-        compare(&setup, &self.scene.machine, self.sink, None).expect("a frame")
+        compare(&setup, self.sink, None).expect("a frame")
     }
 }
 
@@ -94,39 +94,38 @@ fn other_machines_for_height_maps() {
 }
 
 /// Differences between the RTL of a set-up and the emulator of a changed one.
-fn differences(change: impl Fn(&mut Setup<Narrow>, &mut Scene)) -> (u64, String) {
+fn differences(change: impl Fn(&mut Setup<Narrow>)) -> (u64, String) {
     let sets = ["screen.size=[24, 18]".to_owned()];
-    let mut scene = scene::load(Some("flight"), &sets).expect("a scene");
+    let scene = scene::load(Some("flight"), &sets).expect("a scene");
     let plan = Plan::new(&scene, None, false).expect("a plan");
     let memory = Memory::new(&Narrow, &scene, &plan).expect("memories");
     let setup = Setup::new(Narrow, &scene, &plan, memory.as_ref()).expect("a set-up");
-    let machine = Machine::new(&setup, &scene.machine).expect("a machine");
+    let machine = Machine::new(&setup).expect("a machine");
     let mut changed = setup.clone();
-    change(&mut changed, &mut scene);
-    let outcome =
-        compare_with(machine, &changed, &scene.machine, Sink::Ready, None).expect("a frame");
+    change(&mut changed);
+    let outcome = compare_with(machine, &changed, Sink::Ready, None).expect("a frame");
     (outcome.differences, outcome.described.join("\n"))
 }
 
 #[test]
 fn the_smallest_difference_is_found() {
-    assert_eq!(differences(|_, _| {}), (0, String::new()));
-    let (count, first) = differences(|setup, _| {
+    assert_eq!(differences(|_| {}), (0, String::new()));
+    let (count, first) = differences(|setup| {
         setup.projector.x.start = Lane::of_int(setup.projector.x.start.int() + 1);
     });
     assert!(count >= 24 * 18 && first.contains("line 0, column 0, projector: view_x"), "{first}");
-    let (count, first) = differences(|setup, _| {
+    let (count, first) = differences(|setup| {
         let Back::Terrain(units) = &mut setup.back else { panic!("a height map") };
         units.stepper.top = Lane::of_int(units.stepper.top.int() + (1 << 10));
     });
     assert!(count > 0 && first.contains("stepper"), "{first}");
-    let (count, first) = differences(|setup, _| {
+    let (count, first) = differences(|setup| {
         let Back::Terrain(units) = &mut setup.back else { panic!("a height map") };
         let light = units.shader.light.as_mut().expect("light");
         light.ambient = Lane::of_int(light.ambient.int() + 4096);
     });
     assert!(count > 0 && first.contains("shader: pixel_color"), "{first}");
     // Cycles alone: the emulator's memory takes one more.
-    let (count, first) = differences(|_, scene| scene.machine.memory_latency += 1);
+    let (count, first) = differences(|setup| setup.memory_latency += 1);
     assert!(count > 0 && first.contains("takes it in cycle"), "{first}");
 }

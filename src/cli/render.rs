@@ -111,13 +111,8 @@ impl InFixedWorld for Draw<'_> {
                 overflows = found.into_inner().unwrap_or_default();
                 frame
             } else {
-                let mut clock = self.cycles.then(|| {
-                    (
-                        Clock::new(Chain::new(&setup, &scene.machine, plan.fitted.idle)),
-                        Vec::new(),
-                        0,
-                    )
-                });
+                let mut clock =
+                    self.cycles.then(|| (Clock::new(Chain::new(&setup)), Vec::new(), 0));
                 overflows = Overflows::default();
                 let frame = engine::draw_by_lines(&setup, plan, self.buffers, |line| {
                     overflows.inspect(line);

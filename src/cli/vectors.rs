@@ -17,7 +17,7 @@ const LINES: &str = "4";
 /// Write test vectors of every unit, to grade anybody's hardware of the same units.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: terraline vectors flight -o vectors\n\
-                  Example: terraline vectors plane -o vectors --lines 500..504 --hostile 10000")]
+                  Example: terraline vectors plane -o vectors --lines 500..504 --corner-cases 10000")]
 pub struct Vectors {
     #[command(flatten)]
     scene: SceneArgs,
@@ -35,10 +35,10 @@ pub struct Vectors {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     random: Option<u32>,
 
-    /// Hostile rows of each unit: words at the ends of ranges, tiny and negative denominators,
+    /// Corner cases of each unit: words at the ends of ranges, tiny and negative denominators,
     /// accumulators that wrap.
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(..=10_000_000))]
-    hostile: u32,
+    corner_cases: u32,
 
     /// Seed of everything random; the scene's if not given.
     #[arg(long, value_name = "S")]
@@ -57,7 +57,7 @@ struct Listing<'a> {
     lines: u32,
     pixels: u64,
     selection: &'a str,
-    hostile_rows: u32,
+    corner_cases: u32,
     seed: u64,
     #[serde(flatten)]
     written: Report,
@@ -76,7 +76,7 @@ impl Vectors {
             plan,
             world: &planned.world,
             selection: &selection,
-            hostile: self.hostile,
+            corner_cases: self.corner_cases,
             seed,
             folder: &self.output,
         };
@@ -93,7 +93,7 @@ impl Vectors {
             lines: plan.geometry.lines,
             pixels: selection.pixels(),
             selection: &selection.said,
-            hostile_rows: self.hostile,
+            corner_cases: self.corner_cases,
             seed,
             written,
         };
@@ -150,14 +150,14 @@ fn size(bytes: u64) -> String {
 
 fn text(planned: &Planned, listing: &Listing<'_>) -> String {
     let mut out = vec![format!(
-        "{}, {}x{}, {}: {} pixels ({}) and {} hostile rows a unit",
+        "{}, {}x{}, {}: {} pixels ({}) and {} corner cases a unit",
         planned.scene.name,
         listing.columns,
         listing.lines,
         listing.world,
         listing.pixels,
         listing.selection,
-        listing.hostile_rows
+        listing.corner_cases
     )];
     let files = &listing.written.files;
     for file in files {

@@ -46,9 +46,9 @@ pub fn line_start<W: Enterable>(projector: &Projector<W>, number: u32) -> LineSt
     let at = |c: &Linear<W::View>| c.start.after(c.per_line, number);
     LineStart {
         x: at(&projector.x),
-        y: projector.y.as_ref().map(at),
+        y: at(projector.y.as_ref().unwrap_or(&projector.x)),
         z: at(&projector.z),
-        denominator: projector.denominator.as_ref().map(at),
+        denominator: at(projector.denominator.as_ref().unwrap_or(&projector.x)),
     }
 }
 
@@ -62,10 +62,10 @@ pub fn fill<W: Enterable>(projector: &Projector<W>, start: &LineStart<W>, line: 
     };
     wire(start.x, &projector.x, &mut line.view_x);
     wire(start.z, &projector.z, &mut line.view_z);
-    if let (Some(y), Some(c)) = (start.y, &projector.y) {
-        wire(y, c, &mut line.view_y);
+    if let Some(c) = &projector.y {
+        wire(start.y, c, &mut line.view_y);
     }
-    if let (Some(d), Some(c)) = (start.denominator, &projector.denominator) {
-        wire(d, c, &mut line.denominator);
+    if let Some(c) = &projector.denominator {
+        wire(start.denominator, c, &mut line.denominator);
     }
 }

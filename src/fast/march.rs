@@ -27,10 +27,8 @@ use crate::word::Lane as _;
 pub fn draw<W: Packed, S: Simd>(simd: S, units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
     let (stepper, surface) = (&units.stepper, &units.interpolator);
     let Some(relief) = units.relief.as_deref() else {
-        for line in lines {
-            stepper.run(line, surface);
-            units.shade(line);
-        }
+        let units = units.units();
+        lines.iter_mut().for_each(|line| units.iter().for_each(|unit| unit.run(line)));
         return;
     };
     let land = Land { simd, stepper, surface, relief };

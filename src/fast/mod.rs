@@ -32,8 +32,8 @@ use crate::frame::{Frame, Hit};
 use crate::plan::Plan;
 use crate::readout::BufferBuilder;
 use crate::setup::{Back, Setup};
-use crate::unit::Line;
 use crate::unit::divider::Method;
+use crate::unit::{Line, Unit as _};
 use crate::word::Complete;
 use enter::Enterable;
 use words::Packed;
@@ -90,7 +90,8 @@ fn on_vectors<W: Complete + Packed + Enterable>(
 /// Draws a few neighbouring lines ray by ray.
 fn singly<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
     project(setup, first, lines);
-    lines.iter_mut().for_each(|line| setup.run_back(line));
+    let units = setup.back.units(false);
+    lines.iter_mut().for_each(|line| units.iter().for_each(|unit| unit.run(line)));
 }
 
 /// Runs projector and divider.
@@ -101,7 +102,7 @@ fn project<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
         let start = enter::line_start(&setup.projector, number);
         enter::fill(&setup.projector, &start, line);
         if let Some(divider) = &setup.divider {
-            divider.run(line, Method::Direct);
+            divider.run_by(Method::Direct, line);
         }
     }
 }

@@ -99,8 +99,8 @@ impl<W: Packed, S: Simd> Rays<W, S> {
             load(&line.view_x, from, &mut view[0], to, Lane::int);
             load(&line.view_y, from, &mut view[1], to, Lane::int);
             load(&line.view_z, from, &mut view[2], to, Lane::int);
-            load(&line.ground_x, from, &mut ground[0], to, Lane::int);
-            load(&line.ground_z, from, &mut ground[1], to, Lane::int);
+            load(&line.entry_x, from, &mut ground[0], to, Lane::int);
+            load(&line.entry_z, from, &mut ground[1], to, Lane::int);
         }
         let entries = i32x16::simd_from(simd, entries);
         let met = entries.simd_eq(Entry::Met as i32);

@@ -16,12 +16,13 @@ use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanError};
 use crate::scene::{Scene, Surface};
 use crate::unit::checker::Checker;
+use crate::unit::coefficient::{Bank, Coefficient};
 use crate::unit::divider::Divider;
 use crate::unit::interpolator::Interpolator;
-use crate::unit::{Idle, Line, Unit, interpolator, stepper};
 use crate::unit::projector::Projector;
-use crate::unit::shader::TerrainShader;
+use crate::unit::shader::Shader;
 use crate::unit::stepper::{Stepper, SurfaceUnit};
+use crate::unit::{Idle, Unit, interpolator, stepper};
 use crate::word::{Complete, Interpolating, Open, Readout, Register, Shading, Site, World};
 
 pub use cells::Cells;
@@ -64,7 +65,7 @@ pub struct TerrainUnits<W: World> {
     /// Interpolator.
     pub interpolator: Interpolator<W>,
     /// Shader.
-    pub shader: TerrainShader<W>,
+    pub shader: Shader<W>,
     /// The map as the fast engine reads it; absent where the machine does not skip.
     pub relief: Option<Arc<Relief<W::Height>>>,
 }
@@ -92,8 +93,14 @@ pub struct Setup<W: World> {
 
 /// Units that a full machine has though a plane needs none of them.
 const IDLE: [Idle; 2] = [
-    Idle { description: &stepper::DESCRIPTION, timing: |latency| stepper::timing(1, false, latency) },
-    Idle { description: &interpolator::DESCRIPTION, timing: |latency| interpolator::timing(1, latency) },
+    Idle {
+        description: &stepper::DESCRIPTION,
+        timing: |latency| stepper::timing(1, false, latency),
+    },
+    Idle {
+        description: &interpolator::DESCRIPTION,
+        timing: |latency| interpolator::timing(1, latency),
+    },
 ];
 
 impl<W: Complete> Setup<W> {
@@ -114,7 +121,7 @@ impl<W: Complete> Setup<W> {
                 let surface = interpolator.clone();
                 let stepper = coefficients::stepper(&world, scene, walk, memory, surface)?;
                 refuse_eye_under_ground(walk, &stepper)?;
-                let shader = coefficients::terrain_shader(&world, scene, plan, walk, memory)?;
+                let shader = coefficients::shader(&world, scene, plan, walk, memory)?;
                 Back::Terrain(Box::new(TerrainUnits {
                     stepper,
                     interpolator,
@@ -141,6 +148,14 @@ impl<W: Complete> Setup<W> {
 }
 
 impl<W: Complete> Setup<W> {
+    /// Puts in all coefficients: the screen's, the memory's, and those of every unit.
+    pub fn coefficients(&self, bank: &mut Bank<W>) {
+        bank.number(Coefficient::Columns, self.columns);
+        bank.number(Coefficient::Lines, self.lines);
+        bank.number(Coefficient::MemoryLatency, self.memory_latency);
+        self.chain().iter().for_each(|unit| unit.coefficients(bank));
+    }
+
     /// All units in the order of the data flow.
     pub fn chain(&self) -> Vec<&dyn Unit<W>> {
         let mut units: Vec<&dyn Unit<W>> = vec![&self.projector];
@@ -150,15 +165,20 @@ impl<W: Complete> Setup<W> {
     }
 }
 
+impl<W: Interpolating + Shading> TerrainUnits<W> {
+    /// The units in the order of the data flow.
+    pub fn units(&self) -> Vec<&dyn Unit<W>> {
+        let mut units: Vec<&dyn Unit<W>> = vec![&self.stepper, &self.interpolator];
+        units.extend(self.shader.units());
+        units
+    }
+}
+
 impl<W: Interpolating + Shading> Back<W> {
     /// The units behind the divider, with those that are idle.
     pub fn units(&self, idle: bool) -> Vec<&dyn Unit<W>> {
         match self {
-            Self::Terrain(units) => {
-                let mut all: Vec<&dyn Unit<W>> = vec![&units.stepper, &units.interpolator];
-                all.extend(units.shader.units());
-                all
-            }
+            Self::Terrain(units) => units.units(),
             Self::Plane(checker) => {
                 let idle = if idle { &IDLE[..] } else { &[] };
                 idle.iter().map(|unit| unit as &dyn Unit<W>).chain([checker as _]).collect()

@@ -5,27 +5,12 @@ use std::fmt::Write as _;
 
 use super::formats::follows;
 use crate::plan::WordClass;
+use crate::unit::divider::ENDS as DIVIDER_ENDS;
+use crate::unit::interpolator::{LERP_LATENCY, SLOPE_LATENCY};
+use crate::unit::kernel_rom::LATENCY as KERNEL_LATENCY;
+use crate::unit::shader;
+use crate::unit::stepper::{RAY_END, RAY_START};
 use crate::word::Register;
-
-/// Pipeline stages of the interpolator behind nodes and weights: differences, lerps along z, lerp
-/// along x, compare.
-pub const LERP_LATENCY: u32 = 5;
-/// Cycles from a place to the weights of its nodes: kernel ROM and blend. They pass beside the
-/// memory's own; one that is faster waits for them.
-pub const KERNEL_LATENCY: u32 = 2;
-/// Cycles to turn a view vector into a step and to begin a walk with it: magnitudes, their leading
-/// one, shift, end of the walk.
-pub const RAY_START: u32 = 4;
-/// Cycles that a hit takes besides its halvings: one for its distance from the eye, which says how
-/// many they are, and one to place it.
-pub const RAY_END: u32 = 2;
-/// Pipeline stages of the interpolator at the hit behind those of a height: the factors of slopes.
-pub const SLOPE_LATENCY: u32 = 2;
-/// Pipeline stages of the shader (normal, squares, table, dot product, light, ramp, mix, byte), and
-/// of the checker, which has fewer to do.
-pub const SHADER_LATENCY: u32 = 13;
-/// Register stages of the divider besides one per quotient bit: shift, bias and range, eye.
-pub const DIVIDER_ENDS: u32 = 3;
 
 /// One row of the table.
 #[derive(Clone, Copy, Debug)]
@@ -81,22 +66,22 @@ pub fn entry(register: Register) -> Entry {
         R::SlopeZ => row("interpolator", "−∂y/∂z", "1", "15, 18", "table's share (13)"),
         R::Weight => row("kernel ROM", "kernel weight", "1", "12, 16", "½ ulp + (13)"),
         R::WeightSlope => row("kernel ROM", "its derivative", "1/cell", "12, 16", "½ ulp + (13)"),
-        R::Normal => row("shader", "normal, scaled below one", "1", "23", "½ ulp"),
+        R::Normal => row("light", "normal, scaled below one", "1", "23", "½ ulp"),
         R::Shade => row(
-            "shader, checker",
+            "light, checker",
             "ambient plus diffuse light; contrast",
             "1",
             "24, 25, 27",
             "2^-10 + 6 ulp (24)",
         ),
         R::Ramp => row(
-            "shader",
+            "ramp",
             "place on the ramp",
             "segments",
             "26",
             "segments + 1 ulp, plus the height's",
         ),
-        R::Channel => row("shader, checker", "colour channel", "0..=255", "26, 27", "1 level"),
+        R::Channel => row("ramp, mixer, checker", "colour channel", "0..=255", "26, 27", "1 level"),
     }
 }
 
@@ -142,7 +127,7 @@ pub fn markdown() -> String {
          | stepper | {RAY_START} + trials·(1 + M) + samples·R + groups·(N + {LERP_LATENCY}) + \
          halvings·(R + N + {LERP_LATENCY}) + hits·({RAY_END} + H) | 1 | 2 |\n\
          | interpolator | R | N + {} | N + {} |\n\
-         | shader, checker | 1 | {SHADER_LATENCY} | {} |\n\
+         | shader, checker | 1 | {} | {} |\n\
          | frame | 1 | 0 | 1 |\n\n\
          R, reads of the height memory per interpolation: 1 cycle for 2×2 nodes, 4 for 3×3. A \
          group is a run of up to 2^k samples streamed through the interpolator. H is 2R + N + \
@@ -151,7 +136,8 @@ pub fn markdown() -> String {
         DIVIDER_ENDS + 1,
         LERP_LATENCY + SLOPE_LATENCY,
         LERP_LATENCY + SLOPE_LATENCY + 1,
-        SHADER_LATENCY + 1,
+        shader::TIMING.latency,
+        shader::TIMING.depth,
     );
     out
 }

@@ -1,18 +1,16 @@
 //! Test vectors: what goes into every unit and what it has to answer, as text that a test bench of
 //! anybody's hardware reads. The format's page is docs/vectors.md.
 //!
-//! Scene rows come from the wires of the line-by-line processor; hostile rows from the same units
+//! Scene rows come from the wires of the line-by-line processor; corner cases from the same units
 //! with random words on their wires. Nothing expected is computed here.
 
 mod bench;
-mod hostile;
+mod corner_cases;
 mod memories;
 mod scan;
 pub mod selection;
-mod shading;
 pub mod text;
 mod timing;
-mod units;
 mod wires;
 
 use std::path::Path;
@@ -25,20 +23,20 @@ use crate::clock::Chain;
 use crate::engine::{FixedWorld, InFixedWorld};
 use crate::fast::enter::Enterable;
 use crate::plan::Plan;
+use crate::processor::Processor;
 use crate::scene::Scene;
 use crate::setup::{Back, Memory, Setup, SetupError, table};
-use crate::unit::Line;
-use crate::unit::divider::Method;
+use crate::unit::{Line, Unit as _};
 use crate::word::{Complete, Overflow, Register, Rounding};
-use bench::{Behind, Bench};
-use hostile::Hostile;
+use bench::Benches;
+use corner_cases::CornerCases;
 use scan::Scan;
 use selection::Selection;
 use text::Written;
 use timing::Timing;
 use wires::notation;
 
-/// Hostile rows that are on the wires at a time.
+/// Corner cases that are on the wires at a time.
 const CHUNK: u32 = 4096;
 
 /// Why vectors are not written.
@@ -69,9 +67,9 @@ pub struct Vectors<'a> {
     pub world: &'a FixedWorld,
     /// Pixels whose wires become rows.
     pub selection: &'a Selection,
-    /// Hostile rows a unit.
-    pub hostile: u32,
-    /// Seed of the hostile rows.
+    /// Corner cases of every unit.
+    pub corner_cases: u32,
+    /// Seed of the corner cases.
     pub seed: u64,
     /// The folder that is made.
     pub folder: &'a Path,
@@ -164,11 +162,10 @@ impl InFixedWorld for Vectors<'_> {
     fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
         let memory = Memory::new(&world, self.scene, self.plan)?;
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
-        let chain = Chain::new(&setup, &self.scene.machine, self.plan.fitted.idle);
         let folder = NewFolder::begin(self.folder)?;
         let scene = self.scene_lines();
         let files = Files { vectors: self, folder: &folder, scene: &scene };
-        let written = files.write(&setup, &chain)?;
+        let written = files.write(&setup)?;
         folder.finish()?;
         let bytes = written.iter().map(|file| file.bytes).sum();
         Ok(Report { files: written, bytes })
@@ -176,56 +173,35 @@ impl InFixedWorld for Vectors<'_> {
 }
 
 impl<'a> Files<'a> {
-    /// Writes all files: the scene's rows line by line through all units, then each unit's hostile
-    /// rows, then the memories.
-    fn write<W: Complete>(
-        &self,
-        setup: &'a Setup<W>,
-        chain: &'a Chain,
-    ) -> Result<Vec<Written>, SinkError> {
+    /// Writes all files: the scene's rows line by line through all units, then each unit's corner
+    /// cases, then the memories.
+    fn write<W: Complete>(&self, setup: &'a Setup<W>) -> Result<Vec<Written>, SinkError> {
         let world = &setup.world;
         let mut scan = Scan::begin(self, setup)?;
-        let divider = setup.divider.as_ref();
-        let begin = |unit| Bench::begin(self, world, units::divider(world, unit));
-        let mut ratio = divider.map(begin).transpose()?;
-        let mut behind = Behind::begin(self, setup, chain)?;
-        let mut timing = Timing::begin(self, chain)?;
-
-        let mut start = setup.projector.first_line();
-        let mut next = 0;
+        let mut benches = Benches::begin(self, setup)?;
+        let mut timing = Timing::begin(self, Chain::new(setup))?;
+        let mut processor = Processor::new(setup);
         for (number, columns) in &self.vectors.selection.lines {
-            while next < *number {
-                setup.projector.next_line(&mut start);
-                next += 1;
+            while processor.next_line() < *number {
+                processor.skip_line();
             }
             let mut line = Line::new(world, columns.list());
-            line.number = *number;
-            setup.projector.run(&start, &mut line);
+            processor.begin(&mut line);
+            setup.projector.run(&mut line);
             scan.rows(&line, 0, line.len())?;
-            if let (Some(bench), Some(unit)) = (&mut ratio, divider) {
-                bench.run(&mut line, false, |line| unit.run(line, Method::Array))?;
-            }
-            behind.run(&mut line)?;
+            benches.rows(&mut line)?;
             timing.rows(&line)?;
         }
 
-        let count = self.vectors.hostile;
-        let mut hostile = Hostile::new(*world, self.vectors.seed);
-        scan.hostile_rows(&setup.projector, &mut hostile, count)?;
+        let count = self.vectors.corner_cases;
+        let mut cases = CornerCases::new(*world, self.vectors.seed);
+        scan.corner_cases(&setup.projector, &mut cases, count)?;
         for from in (0..count).step_by(CHUNK as usize) {
-            let pixels = CHUNK.min(count - from);
-            if let (Some(bench), Some(unit)) = (&mut ratio, divider) {
-                let mut line = hostile.divider(unit, pixels);
-                bench.run(&mut line, true, |line| unit.run(line, Method::Array))?;
-            }
-            behind.run_hostile(&mut hostile, divider, pixels)?;
+            benches.corner_cases(&mut cases, CHUNK.min(count - from))?;
         }
 
         let mut written = scan.finish()?.to_vec();
-        if let Some(bench) = ratio {
-            written.push(bench.finish()?);
-        }
-        written.extend(behind.finish()?);
+        written.extend(benches.finish()?);
         written.push(timing.finish()?);
         if let Back::Terrain(units) = &setup.back {
             written.extend(memories::write(world, units, self.folder, self.scene)?);

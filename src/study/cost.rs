@@ -7,19 +7,16 @@ use super::error::Sample;
 use crate::clock::{Chain, Clock};
 use crate::engine::InFixedWorld;
 use crate::fast::enter::Enterable;
-use crate::frame::Hit;
 use crate::plan::Plan;
 use crate::processor::{self, Processor};
 use crate::scene::Scene;
-use crate::setup::{Back, Memory, Setup, SetupError};
-use crate::unit::Line;
-use crate::unit::divider::Method;
-use crate::unit::interpolator::Form;
+use crate::setup::{Memory, Setup, SetupError};
+use crate::unit::{Reads, Unit, divider};
 use crate::word::tally::{Operations, Tally, counted};
-use crate::word::{Complete, Register, World};
+use crate::word::{Complete, World};
 
 /// Cost of one unit, per pixel of the frame.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct UnitCost {
     /// Unit.
     pub name: &'static str,
@@ -79,73 +76,47 @@ pub struct Measure<'a> {
     pub operations: &'a Sample,
 }
 
-/// Reads of a pixel.
-#[derive(Clone, Copy, Debug, Default)]
-struct Reads {
-    memory: u64,
-    table: u64,
-}
-
 impl InFixedWorld for Measure<'_> {
     type Output = Result<Cost, SetupError>;
 
     fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
         let memory = Memory::new(&world, self.scene, self.plan)?;
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
-        let chain = Chain::new(&setup, &self.scene.machine, self.plan.fitted.idle);
-        let mut clock = Clock::new(chain);
-        let mut reads = [Reads::default(); 3];
+        let chain = setup.chain();
+        let mut clock = Clock::new(Chain::new(&setup));
+        let mut reads = vec![Reads::default(); chain.len()];
         let mut line = Processor::new(&setup).wires();
         processor::run_lines(&setup, &mut line, self.cycles.lines.iter().copied(), |line| {
             clock.take_line(line, |_, _| {});
-            count_reads(&setup, line, &mut reads);
+            for (unit, reads) in chain.iter().zip(&mut reads) {
+                for (&work, &hit) in line.work.iter().zip(&line.hit) {
+                    let of_pixel = unit.reads(work, hit);
+                    reads.memory += of_pixel.memory;
+                    reads.table += of_pixel.table;
+                }
+            }
         });
         let operations = self.operations(Tally(world))?;
-        Ok(self.report(&setup, &clock, reads, &operations))
+        Ok(self.report(&setup, &clock, &reads, &operations))
     }
 }
 
 impl Measure<'_> {
-    /// Operations per unit over the sampled lines, pixels counted.
-    fn operations<W: Complete>(
-        &self,
-        world: W,
-    ) -> Result<Vec<(&'static str, Operations)>, SetupError> {
+    /// Operations of every unit over the sampled lines.
+    fn operations<W: Complete>(&self, world: W) -> Result<Vec<Operations>, SetupError> {
         let memory = Memory::new(&world, self.scene, self.plan)?;
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
-        let mut start = setup.projector.first_line();
-        let mut line = Processor::new(&setup).wires();
-        let mut totals: Vec<(&'static str, Operations)> = Vec::new();
-        let mut add = |name, done: Operations| {
-            let at = totals.iter().position(|(known, _)| *known == name).unwrap_or_else(|| {
-                totals.push((name, Operations::default()));
-                totals.len() - 1
-            });
-            let total = &mut totals[at].1;
-            total.additions += done.additions;
-            total.products += done.products;
-            total.ratios += done.ratios;
-            total.shifts += done.shifts;
-        };
-        for number in 0..setup.lines {
-            if self.operations.lines.binary_search(&number).is_ok() {
-                line.number = number;
-                add("projector", counted(|| setup.projector.run(&start, &mut line)).1);
-                if let Some(divider) = &setup.divider {
-                    add("divider", counted(|| divider.run(&mut line, Method::Array)).1);
-                }
-                match &setup.back {
-                    Back::Terrain(units) => {
-                        let stepper = || units.stepper.run(&mut line, &units.interpolator);
-                        add("stepper", counted(stepper).1);
-                        add("interpolator", counted(|| units.interpolator.run(&mut line)).1);
-                        add("shader", counted(|| units.shader.run(&mut line)).1);
-                    }
-                    // The chain has one name for the stage before the frame.
-                    Back::Plane(checker) => add("shader", counted(|| checker.run(&mut line)).1),
-                }
+        let mut processor = Processor::new(&setup);
+        let mut line = processor.wires();
+        let mut totals = vec![Operations::default(); processor.chain().len()];
+        for &number in &self.operations.lines {
+            while processor.next_line() < number {
+                processor.skip_line();
             }
-            setup.projector.next_line(&mut start);
+            processor.begin(&mut line);
+            for (unit, total) in processor.chain().iter().zip(&mut totals) {
+                *total += counted(|| unit.run(&mut line)).1;
+            }
         }
         Ok(totals)
     }
@@ -154,47 +125,48 @@ impl Measure<'_> {
         &self,
         setup: &Setup<W>,
         clock: &Clock,
-        reads: [Reads; 3],
-        operations: &[(&'static str, Operations)],
+        reads: &[Reads],
+        operations: &[Operations],
     ) -> Cost {
         let pixels = clock.items().max(1) as f64;
         let operation_pixels =
             (self.operations.lines.len() as f64 * f64::from(setup.columns)).max(1.0);
-        let point = |register| {
-            setup.world.fixed(register).map_or(0, |fixed: crate::word::Fixed| fixed.point)
+        // A shift-and-add multiplier adds once per bit of its multiplier, a divider once per
+        // quotient bit and at its ends.
+        let additions = |unit: &dyn Unit<W>, done: &Operations| {
+            let multiplier = setup.world.fixed(unit.description().multiplier);
+            let per_product = multiplier.map_or(0, |fixed| fixed.point) + 1;
+            let per_ratio = unit.quotient_bits() + divider::ENDS;
+            done.additions
+                + done.products * u64::from(per_product)
+                + done.ratios * u64::from(per_ratio)
         };
-        let ratio = setup.divider.as_ref().map_or(0, |d| u64::from(d.bits + 3));
         let units: Vec<UnitCost> = clock
             .occupancy()
             .map(|(stage, occupancy)| {
-                let done = operations
-                    .iter()
-                    .find(|(name, _)| *name == stage.name)
-                    .map_or(Operations::default(), |(_, done)| *done);
-                // A shift-and-add multiplier adds once per bit of its multiplier.
-                let per_product = match stage.name {
-                    "shader" => point(Register::Shade) + 1,
-                    _ => point(Register::Weight) + 1,
-                };
-                let additions =
-                    done.additions + done.products * u64::from(per_product) + done.ratios * ratio;
-                let read = match stage.name {
-                    "stepper" => reads[0],
-                    "interpolator" => reads[1],
-                    "shader" => reads[2],
-                    _ => Reads::default(),
-                };
-                UnitCost {
+                let mut cost = UnitCost {
                     name: stage.name,
-                    latency_cycles: stage.latency,
-                    depth: stage.depth,
+                    latency_cycles: stage.timing.latency,
+                    depth: stage.timing.depth,
                     busy_cycles_per_pixel: occupancy.busy as f64 / pixels,
                     stalled_cycles_per_pixel: occupancy.stalled as f64 / pixels,
-                    additions_per_pixel: additions as f64 / operation_pixels,
-                    products_per_pixel: done.products as f64 / operation_pixels,
-                    memory_reads_per_pixel: read.memory as f64 / pixels,
-                    table_reads_per_pixel: read.table as f64 / pixels,
+                    ..UnitCost::default()
+                };
+                let of_units = setup.chain().into_iter().zip(reads).zip(operations);
+                let (mut sums, mut products, mut read) = (0, 0, Reads::default());
+                for ((unit, reads), done) in
+                    of_units.filter(|((unit, _), _)| unit.description().stage == stage.name)
+                {
+                    sums += additions(unit, done);
+                    products += done.products;
+                    read.memory += reads.memory;
+                    read.table += reads.table;
                 }
+                cost.additions_per_pixel = sums as f64 / operation_pixels;
+                cost.products_per_pixel = products as f64 / operation_pixels;
+                cost.memory_reads_per_pixel = read.memory as f64 / pixels;
+                cost.table_reads_per_pixel = read.table as f64 / pixels;
+                cost
             })
             .collect();
         let frame_pixels = f64::from(setup.columns) * f64::from(setup.lines);
@@ -222,24 +194,7 @@ pub fn frame_cycles<W: World>(setup: &Setup<W>, clock: &Clock) -> u64 {
         return clock.cycles();
     }
     // The pipeline fills once, however many lines are counted.
-    let fill: u64 = clock.occupancy().map(|(stage, _)| u64::from(stage.latency)).sum();
+    let fill: u64 = clock.occupancy().map(|(stage, _)| u64::from(stage.timing.latency)).sum();
     let flowing = clock.cycles().saturating_sub(fill) as f64;
     fill + (flowing / clock.items().max(1) as f64 * frame_pixels as f64).round() as u64
-}
-
-/// Adds the reads of a line: of the stepper, the interpolator and the shader.
-fn count_reads<W: World>(setup: &Setup<W>, line: &Line<W>, reads: &mut [Reads; 3]) {
-    let Back::Terrain(units) = &setup.back else { return };
-    let nodes = if units.interpolator.form == Form::Stretch { 9 } else { 4 };
-    let tables = if units.interpolator.rom.is_some() { 2 } else { 0 };
-    for (work, hit) in line.work.iter().zip(&line.hit) {
-        let interpolations = u64::from(work.samples + work.halvings);
-        reads[0].memory += u64::from(work.trials) + interpolations * nodes;
-        reads[0].table += interpolations * tables;
-        if matches!(hit, Hit::Surface | Hit::Side) {
-            reads[1].memory += nodes;
-            reads[1].table += 2 * tables;
-            reads[2].table += u64::from(units.shader.light.is_some() && *hit == Hit::Surface);
-        }
-    }
 }

@@ -1,6 +1,7 @@
 //! One pixel, register by register, from set-up to colour: fixed, real and oracle side by side.
 
 mod closed;
+mod quantity;
 pub mod text;
 mod trace;
 
@@ -13,9 +14,11 @@ use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::setup::coefficients::Coefficients;
 use crate::setup::{SetupError, table};
+use crate::unit::Wire;
 use crate::word::Register;
 use crate::word::real::Real;
 use closed::Closed;
+use quantity::{Axis, Quantity};
 use trace::{Reading, Trace, Walk};
 
 /// One register of one pixel.
@@ -116,21 +119,21 @@ pub fn explain(
         .readings
         .iter()
         .map(|reading| {
-            let format = fixed.formats[reading.register as usize];
-            let real_value = real.value(&reading.what);
-            let entry = table::entry(reading.register);
+            let register = reading.quantity.register();
+            let format = fixed.formats[register as usize];
+            let real_value = real.value(reading.quantity);
             Row {
                 unit: reading.unit,
-                what: reading.what.clone(),
-                register: reading.register.name(),
+                what: reading.quantity.to_string(),
+                register: register.name(),
                 format: format.map_or_else(|| "f64".into(), |format| format.to_string()),
                 raw: reading.raw,
                 value: reading.value,
                 real: real_value,
-                oracle: closed.value(&reading.what),
+                oracle: closed.value(reading.quantity),
                 error: real_value.map(|real| reading.value - real),
                 bound: bound(&fixed, reading, &closed.coefficients, column, line),
-                equations: entry.equations,
+                equations: table::entry(register).equations,
             }
         })
         .collect();
@@ -164,10 +167,11 @@ fn bound(
     let view = |register| format(register).map(|f| bounds::view(f, line, column));
     let exponent = coefficients.denominator_exponent - coefficients.view_exponent;
     let entry = |register, numerator, view_register| {
+        let denominator = trace.value(Quantity::Wire(Wire::Denominator))?;
         Some(bounds::entry(
             format(register)?,
-            trace.value(numerator)? / trace.value("denominator")? * libm::scalbn(1.0, exponent),
-            trace.value("denominator")?,
+            trace.value(Quantity::Wire(numerator))? / denominator * libm::scalbn(1.0, exponent),
+            denominator,
             exponent,
             view(view_register)?,
             view(Register::Denominator)?,
@@ -177,24 +181,24 @@ fn bound(
         let view = view(view_register)?;
         Some(bounds::ray(format(register)?, start, trace.steps, view, trace.exponent))
     };
-    let start = |what| match what {
-        "x" => entry(Register::GroundX, "view, x", Register::ViewX),
-        _ => entry(Register::GroundZ, "view, z", Register::ViewZ),
-    };
+    let entry_x = || entry(Register::GroundX, Wire::ViewX, Register::ViewX);
+    let entry_z = || entry(Register::GroundZ, Wire::ViewZ, Register::ViewZ);
     let half = |register| format(register).map(|f| f.ulp() / 2.0);
-    match reading.what.as_str() {
-        "view, x" | "view, y" | "view, z" | "denominator" => view(reading.register),
-        "entry, x" => start("x"),
-        "entry, z" => start("z"),
-        "last sample, x" => {
-            let from = start("x").or(half(Register::GroundX))?;
-            ray(Register::GroundX, from, Register::ViewX)
+    match reading.quantity {
+        Quantity::Wire(Wire::ViewX | Wire::ViewY | Wire::ViewZ | Wire::Denominator) => {
+            view(reading.quantity.register())
         }
-        "last sample, z" => {
-            let from = start("z").or(half(Register::GroundZ))?;
-            ray(Register::GroundZ, from, Register::ViewZ)
+        Quantity::Wire(Wire::EntryX) => entry_x(),
+        Quantity::Wire(Wire::EntryZ) => entry_z(),
+        Quantity::LastSample(Axis::X) => {
+            ray(Register::GroundX, entry_x().or(half(Register::GroundX))?, Register::ViewX)
         }
-        "last sample, y" => ray(Register::RayY, half(Register::RayY)?, Register::ViewY),
+        Quantity::LastSample(Axis::Z) => {
+            ray(Register::GroundZ, entry_z().or(half(Register::GroundZ))?, Register::ViewZ)
+        }
+        Quantity::LastSample(Axis::Y) => {
+            ray(Register::RayY, half(Register::RayY)?, Register::ViewY)
+        }
         _ => None,
     }
 }

@@ -6,15 +6,33 @@
 //!
 //! | wire in | wire out |
 //! |---|---|
-//! | `entry`, `ground_x`, `ground_z`, `denominator` | `hit`, `color` |
+//! | `entry`, `entry_x`, `entry_z`, `denominator` | `hit`, `color` |
 //!
 //! *Cycles*: one pixel per cycle. *Never*: divides.
 
-use super::Line;
-use super::line::Entry;
+use super::coefficient::{Bank, Coefficient as C};
+use super::line::{Entry, Wire};
 use super::pixel::Pixel;
+use super::{Description, Line, Timing, Unit, shader};
 use crate::frame::Hit;
 use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Word, World};
+
+/// What the checker is.
+pub const DESCRIPTION: Description = Description {
+    name: "checker",
+    stage: shader::STAGE,
+    gives: "outcome and colour of a pixel of a plane",
+    inputs: &[Wire::Entry, Wire::EntryX, Wire::EntryZ, Wire::Denominator],
+    outputs: &[Wire::Hit, Wire::Color],
+    registers: &[
+        Register::GroundX,
+        Register::GroundZ,
+        Register::Denominator,
+        Register::Shade,
+        Register::Channel,
+    ],
+    multiplier: Register::Shade,
+};
 
 /// The checker: the shader of planes.
 #[derive(Clone, Debug)]
@@ -39,22 +57,6 @@ pub struct Checker<W: World> {
 }
 
 impl<W: Shading> Checker<W> {
-    /// Drives `hit` and `color` of one line.
-    pub fn run(&self, line: &mut Line<W>) {
-        for i in 0..line.len() {
-            (line.hit[i], line.color[i]) = match line.entry[i] {
-                Entry::Sky => (Hit::Sky, self.pixel.sky),
-                Entry::Far => (Hit::Far, self.pixel.out_of_range),
-                Entry::Met => {
-                    let site = Site::pixel(line.number, line.column[i]);
-                    let contrast = self.contrast(line.denominator[i], site);
-                    let odd = (line.ground_x[i].cell() ^ line.ground_z[i].cell()) & 1 == 1;
-                    (Hit::Surface, self.color(contrast, odd, site))
-                }
-            };
-        }
-    }
-
     /// Contrast of the squares: 1 where a pixel covers at most a quarter of a square along the
     /// view, 0 where it covers a whole one (equation 27).
     #[inline(always)]
@@ -84,5 +86,46 @@ impl<W: Shading> Checker<W> {
             let swing = swing.multiply(contrast, site.step(at as u32));
             if odd { mean - swing } else { mean + swing }
         }))
+    }
+}
+
+impl<W: Shading> Unit<W> for Checker<W> {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
+    }
+
+    fn run(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            (line.hit[i], line.color[i]) = match line.entry[i] {
+                Entry::Sky => (Hit::Sky, self.pixel.sky),
+                Entry::Far => (Hit::Far, self.pixel.out_of_range),
+                Entry::Met => {
+                    let site = Site::pixel(line.number, line.column[i]);
+                    let contrast = self.contrast(line.denominator[i], site);
+                    let odd = (line.entry_x[i].cell() ^ line.entry_z[i].cell()) & 1 == 1;
+                    (Hit::Surface, self.color(contrast, odd, site))
+                }
+            };
+        }
+    }
+
+    fn coefficients(&self, bank: &mut Bank<W>) {
+        Unit::<W>::coefficients(&self.pixel, bank);
+        let names =
+            [C::MeanRed, C::MeanGreen, C::MeanBlue, C::SwingRed, C::SwingGreen, C::SwingBlue];
+        for (name, &word) in names.into_iter().zip(self.mean.iter().chain(&self.swing)) {
+            bank.tone(name, word);
+        }
+        bank.number(C::ContrastExponent, self.contrast_exponent);
+        bank.tone(C::ContrastGain, self.contrast_gain);
+        bank.tone(C::ShadeOne, self.one);
+        bank.number(C::FullFromFitted, self.full_from.is_some());
+        if let Some(full) = self.full_from {
+            bank.view(C::FullFrom, full);
+        }
+    }
+
+    fn timing(&self, _: u32) -> Timing {
+        shader::TIMING
     }
 }

@@ -94,6 +94,16 @@ pub trait Unit<W: World>: Debug + Sync {
     /// What it is.
     fn description(&self) -> &'static Description;
 
+    /// Wires in that this set-up reads.
+    fn inputs(&self) -> Vec<Wire> {
+        self.description().inputs.to_vec()
+    }
+
+    /// Wires out that this set-up drives.
+    fn outputs(&self) -> Vec<Wire> {
+        self.description().outputs.to_vec()
+    }
+
     /// Drives its output wires on a line.
     fn run(&self, line: &mut Line<W>);
 
@@ -106,6 +116,11 @@ pub trait Unit<W: World>: Debug + Sync {
     /// Its reads on an item of which the stepper says this.
     fn reads(&self, _work: Work, _hit: Hit) -> Reads {
         Reads::default()
+    }
+
+    /// Whether it only passes items on.
+    fn is_idle(&self) -> bool {
+        false
     }
 
     /// Quotient bits, of a unit that divides.
@@ -131,6 +146,10 @@ impl<W: World> Unit<W> for Idle {
     fn run(&self, _: &mut Line<W>) {}
 
     fn coefficients(&self, _: &mut Bank<W>) {}
+
+    fn is_idle(&self) -> bool {
+        true
+    }
 
     fn timing(&self, memory_latency: u32) -> Timing {
         Timing { work: Cycles::every(1), ..(self.timing)(memory_latency) }

@@ -288,7 +288,6 @@ impl<W: Interpolating> Interpolator<W> {
             None => Outer { weights: [self.one; 2], slopes: [self.one; 2] },
         }
     }
-
 }
 
 impl<W: Interpolating> Unit<W> for Interpolator<W> {

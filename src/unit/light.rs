@@ -13,9 +13,22 @@
 
 use std::sync::Arc;
 
-use super::Line;
+use super::coefficient::{Bank, Coefficient as C};
+use super::line::{When, Wire, Work};
+use super::{Description, Line, Reads, Timing, Unit, shader};
 use crate::frame::Hit;
 use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Word, World};
+
+/// What the light is.
+pub const DESCRIPTION: Description = Description {
+    name: "light",
+    stage: shader::STAGE,
+    gives: "how much light the surface reflects",
+    inputs: &[Wire::Hit, Wire::SlopeX, Wire::SlopeZ],
+    outputs: &[Wire::Shade],
+    registers: &[Register::SlopeX, Register::SlopeZ, Register::Normal, Register::Shade],
+    multiplier: Register::Shade,
+};
 
 /// Registers of the light.
 #[derive(Clone, Debug)]
@@ -35,16 +48,6 @@ pub struct Light<W: World> {
 }
 
 impl<W: Shading> Light<W> {
-    /// Drives `shade` of one line, where the surface is met.
-    pub fn run(&self, line: &mut Line<W>) {
-        for i in 0..line.len() {
-            if line.hit[i] == Hit::Surface {
-                let site = Site::pixel(line.number, line.column[i]);
-                line.shade[i] = self.shade(line.slope_x[i], line.slope_z[i], site);
-            }
-        }
-    }
-
     /// Ambient plus diffuse light, at most one (equations 23 to 25).
     #[inline(always)]
     pub fn shade(&self, slope_x: W::Height, slope_z: W::Height, site: Site) -> W::Tone {
@@ -67,5 +70,39 @@ impl<W: Shading> Light<W> {
         } else {
             self.ambient
         }
+    }
+}
+
+impl<W: Shading> Unit<W> for Light<W> {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
+    }
+
+    fn run(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            if line.is(When::Lit, i) {
+                let site = Site::pixel(line.number, line.column[i]);
+                line.shade[i] = self.shade(line.slope_x[i], line.slope_z[i], site);
+            }
+        }
+    }
+
+    fn coefficients(&self, bank: &mut Bank<W>) {
+        let [x, y, z] = self.toward;
+        bank.number(C::Lit, true);
+        bank.tone(C::LightX, x);
+        bank.tone(C::LightY, y);
+        bank.tone(C::LightZ, z);
+        bank.tone(C::Ambient, self.ambient);
+        bank.tone(C::ShadeOne, self.one);
+        bank.number(C::RsqrtLog2, self.rsqrt_log2);
+    }
+
+    fn timing(&self, _: u32) -> Timing {
+        shader::TIMING
+    }
+
+    fn reads(&self, _: Work, hit: Hit) -> Reads {
+        Reads { memory: 0, table: u64::from(hit == Hit::Surface) }
     }
 }

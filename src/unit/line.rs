@@ -44,6 +44,8 @@ pub enum When {
     Entered,
     /// Those that show the surface or a side of the map.
     OnSurface,
+    /// Those that show the surface.
+    Lit,
 }
 
 impl When {
@@ -53,13 +55,15 @@ impl When {
             Self::Always => "",
             Self::Entered => "; valid if met",
             Self::OnSurface => "; valid on surface and side",
+            Self::Lit => "; valid on surface",
         }
     }
 }
 
 macro_rules! wires {
     ($($(#[$doc:meta])* $field:ident $wire:ident $class:ident.$format:ident $register:ident
-        $when:ident $meaning:literal,)*) => {
+        $when:ident $meaning:literal,)*
+        ; colors $($(#[$color_doc:meta])* $color:ident($red:ident $green:ident $blue:ident),)*) => {
         /// The wires of one scan line. A unit that is not fitted leaves its wires as they are.
         #[derive(Clone, Debug)]
         pub struct Line<W: World> {
@@ -70,6 +74,7 @@ macro_rules! wires {
             /// Column of each pixel.
             pub column: Vec<u32>,
             $($(#[$doc])* pub $field: Vec<W::$class>,)*
+            $($(#[$color_doc])* pub $color: Vec<[W::Tone; 3]>,)*
             /// Outcome of the projection.
             pub entry: Vec<Entry>,
             /// Outcome of the pixel.
@@ -92,6 +97,7 @@ macro_rules! wires {
                     start: LineStart::idle(world),
                     column,
                     $($field: vec![W::$class::zero(world.$format(Register::$register)); n],)*
+                    $($color: vec![[W::Tone::zero(world.tone(Register::Channel)); 3]; n],)*
                     entry: vec![Entry::Met; n],
                     hit: vec![Hit::Sky; n],
                     steps: vec![0; n],
@@ -104,6 +110,9 @@ macro_rules! wires {
             fn overflowed(&self, wire: Wire, i: usize) -> bool {
                 match wire {
                     $(Wire::$wire => self.$field[i].overflowed(),)*
+                    $(Wire::$red => self.$color[i][0].overflowed(),
+                    Wire::$green => self.$color[i][1].overflowed(),
+                    Wire::$blue => self.$color[i][2].overflowed(),)*
                     Wire::Entry | Wire::Hit | Wire::Steps | Wire::Color => false,
                 }
             }
@@ -113,6 +122,7 @@ macro_rules! wires {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Wire {
             $($(#[$doc])* $wire,)*
+            $($(#[$color_doc])* $red, $(#[$color_doc])* $green, $(#[$color_doc])* $blue,)*
             /// Outcome of the projection.
             Entry,
             /// Outcome of the pixel.
@@ -125,12 +135,17 @@ macro_rules! wires {
 
         impl Wire {
             /// The wires that carry words.
-            pub const WORDS: &'static [Self] = &[$(Self::$wire,)*];
+            pub const WORDS: &'static [Self] = &[
+                $(Self::$wire,)* $(Self::$red, Self::$green, Self::$blue,)*
+            ];
 
             /// Name in files, reports and hardware.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$wire => stringify!($field),)*
+                    $(Self::$red => concat!(stringify!($color), "_red"),
+                    Self::$green => concat!(stringify!($color), "_green"),
+                    Self::$blue => concat!(stringify!($color), "_blue"),)*
                     Self::Entry => "entry",
                     Self::Hit => "hit",
                     Self::Steps => "steps",
@@ -142,6 +157,7 @@ macro_rules! wires {
             pub fn register(self) -> Option<Register> {
                 match self {
                     $(Self::$wire => Some(Register::$register),)*
+                    $(Self::$red | Self::$green | Self::$blue => Some(Register::Channel),)*
                     Self::Entry | Self::Hit | Self::Steps | Self::Color => None,
                 }
             }
@@ -150,8 +166,18 @@ macro_rules! wires {
             pub fn when(self) -> When {
                 match self {
                     $(Self::$wire => When::$when,)*
+                    $(Self::$red | Self::$green | Self::$blue => When::Lit,)*
                     Self::Steps => When::OnSurface,
                     Self::Entry | Self::Hit | Self::Color => When::Always,
+                }
+            }
+
+            /// The pixels at which it is driven: a ray that misses has walked all the same.
+            pub fn driven(self) -> When {
+                match self {
+                    Self::GroundX | Self::GroundZ => When::Entered,
+                    Self::Steps => When::Always,
+                    _ => self.when(),
                 }
             }
 
@@ -159,6 +185,7 @@ macro_rules! wires {
             pub fn meaning(self) -> &'static str {
                 match self {
                     $(Self::$wire => $meaning,)*
+                    $(Self::$red | Self::$green | Self::$blue => "channel, 0 to 255",)*
                     Self::Entry => "0 met, 1 sky, 2 far",
                     Self::Hit => "0 sky, 1 surface, 2 side, 3 far",
                     Self::Steps => "index of the sample that hit",
@@ -172,6 +199,9 @@ macro_rules! wires {
             pub fn bits(&self, wire: Wire, i: usize) -> Option<i64> {
                 match wire {
                     $(Wire::$wire => self.$field[i].raw(),)*
+                    $(Wire::$red => self.$color[i][0].raw(),
+                    Wire::$green => self.$color[i][1].raw(),
+                    Wire::$blue => self.$color[i][2].raw(),)*
                     Wire::Entry => Some(self.entry[i] as i64),
                     Wire::Hit => Some(self.hit[i] as i64),
                     Wire::Steps => Some(self.steps[i].into()),
@@ -186,6 +216,9 @@ macro_rules! wires {
             pub fn value(&self, wire: Wire, i: usize) -> Option<f64> {
                 match wire {
                     $(Wire::$wire => Some(self.$field[i].value()),)*
+                    $(Wire::$red => Some(self.$color[i][0].value()),
+                    Wire::$green => Some(self.$color[i][1].value()),
+                    Wire::$blue => Some(self.$color[i][2].value()),)*
                     Wire::Entry | Wire::Hit | Wire::Steps | Wire::Color => None,
                 }
             }
@@ -210,23 +243,19 @@ impl<W: World> Line<W> {
             When::Always => true,
             When::Entered => self.entry[i] == Entry::Met,
             When::OnSurface => matches!(self.hit[i], Hit::Surface | Hit::Side),
+            When::Lit => self.hit[i] == Hit::Surface,
         }
     }
 
     /// Registers whose wires carry overflowed values: pixels, and the first pixel's column. Empty
     /// in stock worlds, whose ranges are proved.
     pub fn overflows(&self) -> Vec<(Register, u64, u32)> {
-        // A ray that misses has walked all the same.
-        let walked = |wire: Wire| match wire {
-            Wire::GroundX | Wire::GroundZ => When::Entered,
-            _ => wire.when(),
-        };
         let mut found = Vec::new();
         for &register in Register::ALL {
             let of_register = |wire: &&Wire| wire.register() == Some(register);
             let wires: Vec<Wire> = Wire::WORDS.iter().filter(of_register).copied().collect();
             let mut pixels = (0..self.len()).filter(|&i| {
-                wires.iter().any(|&wire| self.is(walked(wire), i) && self.overflowed(wire, i))
+                wires.iter().any(|&wire| self.is(wire.driven(), i) && self.overflowed(wire, i))
             });
             if let Some(first) = pixels.next() {
                 found.push((register, 1 + pixels.count() as u64, self.column[first]));
@@ -259,4 +288,11 @@ wires! {
     slope_x SlopeX Height.height SlopeX OnSurface "negated slope along x",
     /// Negated slope of the surface against z.
     slope_z SlopeZ Height.height SlopeZ OnSurface "negated slope along z",
+    /// Light that the surface reflects, from 0 to 1.
+    shade Shade Tone.tone Shade Lit "ambient plus diffuse light",
+    ; colors
+    /// Colour of the ground before it is lit, channels from 0 to 255.
+    albedo(AlbedoRed AlbedoGreen AlbedoBlue),
+    /// Colour of the lit ground, channels from 0 to 255.
+    lit(LitRed LitGreen LitBlue),
 }

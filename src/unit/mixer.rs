@@ -10,9 +10,21 @@
 //!
 //! *Cycles*: one pixel per cycle. *Never*: divides.
 
-use super::Line;
-use crate::frame::Hit;
+use super::coefficient::{Bank, Coefficient as C};
+use super::line::{When, Wire};
+use super::{Description, Line, Timing, Unit, shader};
 use crate::word::{Multiply, Register, Shading, Site};
+
+/// What the mixer is.
+pub const DESCRIPTION: Description = Description {
+    name: "mixer",
+    stage: shader::STAGE,
+    gives: "the colour of the lit ground",
+    inputs: &[Wire::Hit, Wire::AlbedoRed, Wire::AlbedoGreen, Wire::AlbedoBlue, Wire::Shade],
+    outputs: &[Wire::LitRed, Wire::LitGreen, Wire::LitBlue],
+    registers: &[Register::Shade, Register::Channel],
+    multiplier: Register::Shade,
+};
 
 /// The mixer.
 #[derive(Clone, Copy, Debug)]
@@ -21,20 +33,37 @@ pub struct Mixer {
     pub shaded: bool,
 }
 
-impl Mixer {
-    /// Drives `lit` of one line, where the surface is met.
-    pub fn run<W: Shading>(&self, line: &mut Line<W>) {
+impl<W: Shading> Unit<W> for Mixer {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
+    }
+
+    fn inputs(&self) -> Vec<Wire> {
+        let all = DESCRIPTION.inputs.iter();
+        all.filter(|&&wire| self.shaded || wire != Wire::Shade).copied().collect()
+    }
+
+    fn run(&self, line: &mut Line<W>) {
         for i in 0..line.len() {
-            if line.hit[i] == Hit::Surface {
+            if line.is(When::Lit, i) {
                 let albedo = line.albedo[i];
                 line.lit[i] = if self.shaded {
                     let site = Site::pixel(line.number, line.column[i]).at(Register::Channel);
-                    let channel = |at| albedo[at].multiply(line.shade[i], site.step(at as u32));
+                    let channel =
+                        |at: usize| albedo[at].multiply(line.shade[i], site.step(at as u32));
                     std::array::from_fn(channel)
                 } else {
                     albedo
                 };
             }
         }
+    }
+
+    fn coefficients(&self, bank: &mut Bank<W>) {
+        bank.number(C::Lit, self.shaded);
+    }
+
+    fn timing(&self, _: u32) -> Timing {
+        shader::TIMING
     }
 }

@@ -10,9 +10,22 @@
 //!
 //! *Cycles*: one pixel per cycle. *Never*: multiplies or divides.
 
-use super::Line;
+use super::coefficient::{Bank, Coefficient as C};
+use super::line::Wire;
+use super::{Description, Line, Timing, Unit, shader};
 use crate::frame::Hit;
-use crate::word::{Cell, World};
+use crate::word::{Cell, Register, World};
+
+/// What the pixel unit is.
+pub const DESCRIPTION: Description = Description {
+    name: "pixel",
+    stage: shader::STAGE,
+    gives: "the bytes of a pixel",
+    inputs: &[Wire::Hit, Wire::LitRed, Wire::LitGreen, Wire::LitBlue],
+    outputs: &[Wire::Color],
+    registers: &[Register::Channel],
+    multiplier: Register::Shade,
+};
 
 /// Constant colours, of pixels that meet no lit surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,14 +39,6 @@ pub struct Pixel {
 }
 
 impl Pixel {
-    /// Drives `color` of one line.
-    pub fn run<W: World>(&self, line: &mut Line<W>) {
-        for i in 0..line.len() {
-            line.color[i] =
-                self.constant(line.hit[i]).unwrap_or_else(|| Self::rounded(line.lit[i]));
-        }
-    }
-
     /// The constant colour of an outcome; `None` where a surface is met, whose colour is computed.
     #[inline(always)]
     pub fn constant(&self, hit: Hit) -> Option<[u8; 3]> {
@@ -49,5 +54,28 @@ impl Pixel {
     #[inline(always)]
     pub fn rounded<T: Cell>(color: [T; 3]) -> [u8; 3] {
         color.map(|channel| channel.nearest().clamp(0, 255) as u8)
+    }
+}
+
+impl<W: World> Unit<W> for Pixel {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
+    }
+
+    fn run(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            line.color[i] =
+                self.constant(line.hit[i]).unwrap_or_else(|| Self::rounded(line.lit[i]));
+        }
+    }
+
+    fn coefficients(&self, bank: &mut Bank<W>) {
+        bank.color(C::SkyColor, self.sky);
+        bank.color(C::FarColor, self.out_of_range);
+        bank.color(C::SideColor, self.side);
+    }
+
+    fn timing(&self, _: u32) -> Timing {
+        shader::TIMING
     }
 }

@@ -117,6 +117,12 @@ impl<W: World> Unit<W> for Projector<W> {
         &DESCRIPTION
     }
 
+    fn outputs(&self) -> Vec<Wire> {
+        let fitted = [true, self.y.is_some(), true, self.denominator.is_some()];
+        let all = DESCRIPTION.outputs.iter().zip(fitted);
+        all.filter_map(|(&wire, fitted)| fitted.then_some(wire)).collect()
+    }
+
     /// Drives the view wires of one line: one addition per accumulator and column.
     ///
     /// The wires take the pixels of `line.column`, in ascending order; the accumulators walk over

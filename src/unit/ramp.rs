@@ -9,9 +9,21 @@
 //!
 //! *Cycles*: one pixel per cycle. *Never*: divides.
 
-use super::Line;
-use crate::frame::Hit;
+use super::coefficient::{Bank, Coefficient as C};
+use super::line::{When, Wire};
+use super::{Description, Line, Timing, Unit, shader};
 use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Word, World};
+
+/// What the ramp is.
+pub const DESCRIPTION: Description = Description {
+    name: "ramp",
+    stage: shader::STAGE,
+    gives: "the colour of the ground by its height",
+    inputs: &[Wire::Hit, Wire::Surface],
+    outputs: &[Wire::AlbedoRed, Wire::AlbedoGreen, Wire::AlbedoBlue],
+    registers: &[Register::Surface, Register::Ramp, Register::Channel],
+    multiplier: Register::Shade,
+};
 
 /// Registers of the ramp.
 #[derive(Clone, Debug)]
@@ -30,16 +42,6 @@ pub struct Ramp<W: World> {
 pub type Segment<T> = [(T, T); 3];
 
 impl<W: Shading> Ramp<W> {
-    /// Drives `albedo` of one line, where the surface is met.
-    pub fn run(&self, line: &mut Line<W>) {
-        for i in 0..line.len() {
-            if line.hit[i] == Hit::Surface {
-                let site = Site::pixel(line.number, line.column[i]);
-                line.albedo[i] = self.color(self.place(line.surface[i], site), site);
-            }
-        }
-    }
-
     /// Place on the ramp in segments (equation 26).
     #[inline(always)]
     pub fn place(&self, surface: W::Height, site: Site) -> W::Tone {
@@ -64,5 +66,30 @@ impl<W: Shading> Ramp<W> {
                 None => start + rise,
             }
         })
+    }
+}
+
+impl<W: Shading> Unit<W> for Ramp<W> {
+    fn description(&self) -> &'static Description {
+        &DESCRIPTION
+    }
+
+    fn run(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            if line.is(When::Lit, i) {
+                let site = Site::pixel(line.number, line.column[i]);
+                line.albedo[i] = self.color(self.place(line.surface[i], site), site);
+            }
+        }
+    }
+
+    fn coefficients(&self, bank: &mut Bank<W>) {
+        bank.number(C::RampExponent, self.exponent);
+        bank.tone(C::RampGain, self.gain);
+        bank.number(C::RampLast, self.segments.len() as i64 - 1);
+    }
+
+    fn timing(&self, _: u32) -> Timing {
+        shader::TIMING
     }
 }

@@ -9,12 +9,20 @@
 //! Light and ramp work side by side. *Cycles*: one pixel per cycle. Planes have the checker in its
 //! place.
 
-use super::Line;
 use super::light::Light;
 use super::mixer::Mixer;
 use super::pixel::Pixel;
 use super::ramp::Ramp;
+use super::{Timing, Unit};
 use crate::word::{Shading, World};
+
+/// Name of the stage.
+pub const STAGE: &str = "shader";
+
+/// Its cycles: eleven of light and ramp side by side (normal, squares, table, dot product, light;
+/// place, segment, colour), one of the mixer's products, one of mixer and pixel that rounds them.
+/// The checker, which has fewer to do, takes as many.
+pub const TIMING: Timing = Timing::pipeline(1, 13);
 
 /// The shader of height maps.
 #[derive(Clone, Debug)]
@@ -30,13 +38,9 @@ pub struct Shader<W: World> {
 }
 
 impl<W: Shading> Shader<W> {
-    /// Runs the parts on one line.
-    pub fn run(&self, line: &mut Line<W>) {
-        if let Some(light) = &self.light {
-            light.run(line);
-        }
-        self.ramp.run(line);
-        self.mixer.run(line);
-        self.pixel.run(line);
+    /// The units of the stage, in their order.
+    pub fn units(&self) -> impl Iterator<Item = &dyn Unit<W>> {
+        let light = self.light.iter().map(|light| light as &dyn Unit<W>);
+        light.chain([&self.ramp as &dyn Unit<W>, &self.mixer, &self.pixel])
     }
 }

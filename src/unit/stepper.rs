@@ -24,8 +24,8 @@ use std::sync::Arc;
 use super::coefficient::{Bank, Coefficient as C};
 use super::interpolator::{self, Interpolator};
 use super::line::{Entry, Wire, Work};
-use super::{Cycles, Description, Line, Reads, Timing, Unit};
 use super::pyramid::Pyramid;
+use super::{Cycles, Description, Line, Reads, Timing, Unit};
 use crate::frame::Hit;
 use crate::word::{Cell, Interpolating, Register, Rescale, Site, Word, World};
 
@@ -401,6 +401,11 @@ impl<W: World> Stepper<W> {
 impl<W: Interpolating> Unit<W> for Stepper<W> {
     fn description(&self) -> &'static Description {
         &DESCRIPTION
+    }
+
+    fn inputs(&self) -> Vec<Wire> {
+        let views = if self.from_eye { 3 } else { DESCRIPTION.inputs.len() };
+        DESCRIPTION.inputs[..views].to_vec()
     }
 
     fn run(&self, line: &mut Line<W>) {

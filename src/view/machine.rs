@@ -153,15 +153,10 @@ impl<W: Complete + Enterable> Machine for Loaded<W> {
     }
 
     fn scan(&self, source: Source, buffers: bool) -> Result<Box<dyn Scan + '_>, SetupError> {
-        let machine = &self.scene.machine;
         Ok(match source {
             Source::Fast => Box::new(FastScan::new(&self.fixed, &self.plan, buffers)),
-            Source::Processor => {
-                Box::new(ProcessorScan::new(&self.fixed, &self.plan, machine, buffers))
-            }
-            Source::Real => {
-                Box::new(ProcessorScan::new(self.real()?, &self.plan, machine, buffers))
-            }
+            Source::Processor => Box::new(ProcessorScan::new(&self.fixed, &self.plan, buffers)),
+            Source::Real => Box::new(ProcessorScan::new(self.real()?, &self.plan, buffers)),
             Source::Oracle => Box::new(OracleScan::new(self.oracle(), &self.plan)),
             Source::FixedError | Source::RealError => {
                 let errors = self.comparison()?;
@@ -175,14 +170,13 @@ impl<W: Complete + Enterable> Machine for Loaded<W> {
     }
 
     fn probe(&self, column: u32, line: u32) -> Result<Probe, SetupError> {
-        let machine = &self.scene.machine;
         let comparison = self.comparison()?;
-        Ok(probe::probe(&comparison, machine, column, line))
+        Ok(probe::probe(&comparison, column, line))
     }
 
     fn modelled(&self, lines: u32) -> Modelled {
         let sample = Sample::whole_lines(&self.plan, lines, self.scene.seed);
-        probe::modelled(&self.fixed, &self.plan, &self.scene.machine, &sample)
+        probe::modelled(&self.fixed, &self.scene.machine, &sample)
     }
 }
 

@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use crate::clock::{Chain, Clock};
 use crate::frame::Hit;
-use crate::plan::Plan;
 use crate::processor::Processor;
 use crate::readout::Reader;
 use crate::scene::Machine;
@@ -35,12 +34,7 @@ pub struct Probe {
 }
 
 /// Looks at a pixel of a frame.
-pub fn probe<W: Complete>(
-    comparison: &Comparison<'_, W>,
-    machine: &Machine,
-    column: u32,
-    line: u32,
-) -> Probe {
+pub fn probe<W: Complete>(comparison: &Comparison<'_, W>, column: u32, line: u32) -> Probe {
     let Comparison { plan, fixed, .. } = *comparison;
     let mut processor = Processor::new(fixed);
     while processor.next_line() < line {
@@ -48,7 +42,7 @@ pub fn probe<W: Complete>(
     }
     let mut wires = processor.wires();
     processor.run_line(&mut wires);
-    let mut clock = Clock::new(Chain::new(fixed, machine, plan.fitted.idle));
+    let mut clock = Clock::new(Chain::new(fixed));
     let (mut before, mut cycles) = (0, 0);
     clock.take_line(&wires, |i, done| {
         if i == column as usize {
@@ -95,13 +89,8 @@ impl Modelled {
 }
 
 /// The frame rate from sampled lines.
-pub fn modelled<W: Complete>(
-    setup: &Setup<W>,
-    plan: &Plan,
-    machine: &Machine,
-    sample: &Sample,
-) -> Modelled {
-    let mut clock = Clock::new(Chain::new(setup, machine, plan.fitted.idle));
+pub fn modelled<W: Complete>(setup: &Setup<W>, machine: &Machine, sample: &Sample) -> Modelled {
+    let mut clock = Clock::new(Chain::new(setup));
     let mut processor = Processor::new(setup);
     let mut wires = processor.wires();
     for &line in &sample.lines {

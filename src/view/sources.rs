@@ -11,7 +11,6 @@ use crate::oracle::Oracle;
 use crate::plan::Plan;
 use crate::processor::Processor;
 use crate::readout::FrameBuilder;
-use crate::scene::Machine;
 use crate::setup::Setup;
 use crate::study::error::{Comparison, PixelError, Sample, Sheet};
 use crate::unit::Line;
@@ -116,13 +115,13 @@ pub struct ProcessorScan<'a, W: Complete> {
 }
 
 impl<'a, W: Complete> ProcessorScan<'a, W> {
-    /// At the first line, with the cycles of a machine.
-    pub fn new(setup: &'a Setup<W>, plan: &'a Plan, machine: &Machine, buffers: bool) -> Self {
+    /// At the first line.
+    pub fn new(setup: &'a Setup<W>, plan: &'a Plan, buffers: bool) -> Self {
         let processor = Processor::new(setup);
         Self {
             line: processor.wires(),
             processor,
-            clock: Clock::new(Chain::new(setup, machine, plan.fitted.idle)),
+            clock: Clock::new(Chain::new(setup)),
             before: 0,
             plan,
             buffers,

@@ -23,6 +23,15 @@ pub struct Operations {
     pub shifts: u64,
 }
 
+impl std::ops::AddAssign for Operations {
+    fn add_assign(&mut self, other: Self) {
+        self.additions += other.additions;
+        self.products += other.products;
+        self.ratios += other.ratios;
+        self.shifts += other.shifts;
+    }
+}
+
 thread_local! {
     static COUNTS: Counter<Operations> = const { Counter::new(Operations {
         additions: 0, products: 0, ratios: 0, shifts: 0,

@@ -15,7 +15,7 @@ fn files(folder: &Folder, name: &str) -> Vec<String> {
 fn vectors_are_a_folder_of_files() {
     let folder = Folder::new();
     let text = folder.prints(&["vectors", "plane", "-o", "plane", "--size", "64x48"]);
-    for word in ["4 of 48 lines", "256 pixels", "256 hostile rows", "kB", "docs/vectors.md"] {
+    for word in ["4 of 48 lines", "256 pixels", "256 corner cases", "kB", "docs/vectors.md"] {
         assert!(text.contains(word), "{word}: {text}");
     }
     assert_eq!(
@@ -42,11 +42,11 @@ fn vectors_are_a_folder_of_files() {
         "50",
         "--seed",
         "3",
-        "--hostile",
+        "--corner-cases",
         "10000",
     ]);
     assert_eq!(object["pixels"], 50);
-    assert_eq!(object["hostile_rows"], 10_000);
+    assert_eq!(object["corner_cases"], 10_000);
     let listed = object["files"].as_array().expect("files");
     assert_eq!(listed.len(), files(&folder, "valley").len());
     for file in listed {
@@ -86,7 +86,7 @@ fn vectors_that_cannot_be_written() {
     let under = ["vectors", "valley", "-o", "out", "--set", "camera.position=[232.0, 1.0, 168.0]"];
     assert!(refused(&folder, &under).contains("camera.position"));
     for options in
-        [&["--random", "0"][..], &["--hostile", "99999999999"], &["--lines", "2", "--random", "2"]]
+        [&["--random", "0"][..], &["--corner-cases", "99999999999"], &["--lines", "2", "--random", "2"]]
     {
         let output = folder.run(&[&["vectors", "plane", "-o", "out"], options].concat());
         assert_eq!(output.status.code(), Some(2), "{options:?}");

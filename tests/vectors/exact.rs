@@ -62,8 +62,8 @@ pub fn divider(files: &Files) -> Result<(), String> {
         let denominator = input("denominator")?;
         let quotient = |axis: &str| -> Result<Option<i128>, String> {
             let numerator = input(&format!("view_{axis}"))?;
-            let shift = file.register(&format!("shift_{axis}"));
-            let bits = file.register(&format!("bits_{axis}"));
+            let shift = file.register(&format!("ratio_shift_{axis}"));
+            let bits = file.register(&format!("ratio_bits_{axis}"));
             let (up, down) = (shift.max(0) as u32, (-shift).max(0) as u32);
             let quotient = (numerator << up).div_euclid(denominator << down);
             let limit = 1 << (bits - 1);
@@ -79,7 +79,7 @@ pub fn divider(files: &Files) -> Result<(), String> {
         };
         check(file, at, "entry", Some(entry))?;
         for (name, eye, quotient) in
-            [("ground_x", "eye_x", met.map(|q| q.0)), ("ground_z", "eye_z", met.map(|q| q.1))]
+            [("entry_x", "eye_x", met.map(|q| q.0)), ("entry_z", "eye_z", met.map(|q| q.1))]
         {
             let width = file.columns[file.at("out", name)].notation.width;
             let place = quotient.map(|q| wrapped(i128::from(file.register(eye)) + q, width));

@@ -3,7 +3,6 @@
 
 use std::collections::BTreeMap;
 
-use terraline::clock::Chain;
 use terraline::engine::InFixedWorld;
 use terraline::fast::enter::Enterable;
 use terraline::frame::Hit;
@@ -11,8 +10,7 @@ use terraline::plan::Plan;
 use terraline::scene::Scene;
 use terraline::setup::{Back, Memory, Setup, TerrainUnits};
 use terraline::sink::vectors::selection::Selection;
-use terraline::unit::Line;
-use terraline::unit::divider::Method;
+use terraline::unit::{Line, checker::Checker};
 use terraline::unit::line::Entry;
 use terraline::word::{Complete, Load, Readout, Register};
 
@@ -57,8 +55,7 @@ impl InFixedWorld for Grade<'_> {
         if self.stock {
             exact::interpolator(files)?;
         }
-        let chain = Chain::new(&setup, &scene.machine, plan.fitted.idle);
-        self.units(&setup, &chain)?;
+        self.units(&setup)?;
         if let Back::Terrain(units) = &setup.back {
             memories::check(files, units)?;
         }
@@ -81,12 +78,14 @@ impl Grade<'_> {
         match &setup.back {
             Back::Plane(_) => names.push("checker"),
             Back::Terrain(units) => {
-                names.extend(["stepper", "interpolator", "shader", "height_memory", "ramp"]);
+                names.extend(["stepper", "interpolator", "ramp", "mixer", "pixel"]);
+                names.extend(["height_memory", "ramp_segments"]);
                 let optional = [
                     ("void_bits", units.interpolator.heights.has_voids()),
                     ("pyramid", units.stepper.pyramid.is_some()),
                     ("kernel_weight", units.interpolator.rom.is_some()),
                     ("kernel_slope", units.interpolator.rom.is_some()),
+                    ("light", units.shader.light.is_some()),
                     ("rsqrt", units.shader.light.is_some()),
                 ];
                 names.extend(optional.iter().filter(|(_, fitted)| *fitted).map(|(name, _)| name));
@@ -101,7 +100,7 @@ impl Grade<'_> {
         self.files.values().filter(|file| file.has("at", "line"))
     }
 
-    /// Rows of the scene are the pixels that were asked for, hostile rows are none.
+    /// Rows of the scene are the pixels that were asked for, corner cases are none.
     fn places(&self) -> Result<(), String> {
         let lines = &self.selection.lines;
         let pixels: Vec<(i64, i64)> = lines
@@ -116,7 +115,7 @@ impl Grade<'_> {
             }
             let (line, column) = (file.at("at", "line"), file.at("at", "column"));
             for (at, row) in file.rows.iter().enumerate() {
-                // Hostile sets are scanned over a raster; other hostile rows have no place.
+                // Sets of corner cases are scanned over a raster; other corner cases have no place.
                 let raster = at.checked_sub(pixels.len()).map(|n| n as i64);
                 let of_set = file.name == "projector.mem";
                 let scanned = raster.filter(|_| of_set).map(|n| (n % 16 / 4, n % 4));
@@ -134,7 +133,17 @@ impl Grade<'_> {
 
     /// What a unit gets in a row of the scene is what the last unit before that drives the wire says.
     fn handed_on(&self) -> Result<(), String> {
-        let order = ["projector", "divider", "stepper", "interpolator", "shader", "checker"];
+        let order = [
+            "projector",
+            "divider",
+            "stepper",
+            "interpolator",
+            "light",
+            "ramp",
+            "mixer",
+            "pixel",
+            "checker",
+        ];
         let mut driven: BTreeMap<&str, (&File, usize)> = BTreeMap::new();
         for file in order.iter().filter_map(|name| self.files.get(*name)) {
             for (at, column) in file.columns.iter().enumerate() {
@@ -157,95 +166,92 @@ impl Grade<'_> {
         Ok(())
     }
 
-    /// All rows through the units.
-    fn units<W: Complete>(&self, setup: &Setup<W>, chain: &Chain) -> Result<(), String> {
-        if let (Some(unit), Some(file)) = (&setup.divider, self.files.get("divider")) {
-            let eyes = [("eye_x", unit.eye_x.raw()), ("eye_z", unit.eye_z.raw())];
-            registers(file, &eyes)?;
-            registers(file, &[("bits_x", Some(unit.bits.into()))])?;
-            let mut line = wires(&setup.world, file)?;
-            unit.run(&mut line, Method::Array);
-            compare(file, &line, chain)?;
+    /// Registers of the machine, and all rows through the units.
+    fn units<W: Complete>(&self, setup: &Setup<W>) -> Result<(), String> {
+        if let Some(unit) = &setup.divider {
+            let file = &self.files["divider"];
+            registers(file, &[("eye_x", unit.eye_x.raw()), ("eye_z", unit.eye_z.raw())])?;
+            registers(file, &[("ratio_bits_x", Some(unit.bits[0].into()))])?;
         }
         match &setup.back {
-            Back::Plane(unit) => {
-                let file = &self.files["checker"];
-                let [mean, swing] = [unit.mean, unit.swing].map(|words| words.map(Readout::raw));
-                registers(
-                    file,
-                    &[
-                        ("sky", Some(packed(unit.flat.sky))),
-                        ("far", Some(packed(unit.flat.far))),
-                        ("mean_red", mean[0]),
-                        ("mean_green", mean[1]),
-                        ("mean_blue", mean[2]),
-                        ("swing_red", swing[0]),
-                        ("swing_green", swing[1]),
-                        ("swing_blue", swing[2]),
-                        ("contrast_exponent", Some(unit.contrast_exponent.into())),
-                        ("contrast_gain", unit.contrast_gain.raw()),
-                        ("one", unit.one.raw()),
-                    ],
-                )?;
-                let mut line = wires(&setup.world, file)?;
-                unit.run(&mut line);
-                compare(file, &line, chain)
-            }
-            Back::Terrain(units) => self.terrain(&setup.world, units, chain),
+            Back::Plane(unit) => self.plane(unit)?,
+            Back::Terrain(units) => self.terrain(units)?,
         }
+        for unit in setup.chain().into_iter().skip(1).filter(|unit| !unit.is_idle()) {
+            let file = &self.files[unit.description().name];
+            let mut line = wires(&setup.world, file)?;
+            unit.run(&mut line);
+            let work = |i: usize| unit.timing(setup.memory_latency).work.of(line.work[i]);
+            compare(file, &line, work)?;
+        }
+        Ok(())
     }
 
-    fn terrain<W: Complete>(
-        &self,
-        world: &W,
-        units: &TerrainUnits<W>,
-        chain: &Chain,
-    ) -> Result<(), String> {
-        let (file, unit) = (&self.files["stepper"], &units.stepper);
+    fn plane<W: Complete>(&self, unit: &Checker<W>) -> Result<(), String> {
+        let [mean, swing] = [unit.mean, unit.swing].map(|words| words.map(Readout::raw));
         registers(
-            file,
+            &self.files["checker"],
+            &[
+                ("sky_color", Some(packed(unit.pixel.sky))),
+                ("far_color", Some(packed(unit.pixel.out_of_range))),
+                ("mean_red", mean[0]),
+                ("mean_green", mean[1]),
+                ("mean_blue", mean[2]),
+                ("swing_red", swing[0]),
+                ("swing_green", swing[1]),
+                ("swing_blue", swing[2]),
+                ("contrast_exponent", Some(unit.contrast_exponent.into())),
+                ("contrast_gain", unit.contrast_gain.raw()),
+                ("shade_one", unit.one.raw()),
+            ],
+        )
+    }
+
+    fn terrain<W: Complete>(&self, units: &TerrainUnits<W>) -> Result<(), String> {
+        let unit = &units.stepper;
+        registers(
+            &self.files["stepper"],
             &[
                 ("from_eye", Some(unit.from_eye.into())),
                 ("eye_x", unit.eye_x.raw()),
                 ("eye_y", unit.eye_y.raw()),
                 ("eye_z", unit.eye_z.raw()),
-                ("top", unit.top.raw()),
+                ("highest", unit.top.raw()),
                 ("base", unit.base.raw()),
                 ("sides", Some(unit.sides.into())),
                 ("fineness", Some(unit.fineness.into())),
                 ("last", Some(unit.last.into())),
-                ("beyond", Some(unit.beyond as i64)),
+                ("beyond_sky", Some((unit.beyond == Hit::Sky).into())),
             ],
         )?;
-        let mut line = wires(world, file)?;
-        unit.run(&mut line, &units.interpolator);
-        compare(file, &line, chain)?;
-
-        let (file, unit) = (&self.files["interpolator"], &units.interpolator);
-        registers(file, &[("one", unit.one.raw())])?;
-        let mut line = wires(world, file)?;
-        unit.run(&mut line);
-        compare(file, &line, chain)?;
-
-        let (file, unit) = (&self.files["shader"], &units.shader);
         registers(
-            file,
+            &self.files["interpolator"],
+            &[("weight_one", units.interpolator.one.raw())],
+        )?;
+        let shader = &units.shader;
+        if let Some(unit) = &shader.light {
+            let file = &self.files["light"];
+            let [x, y, z] = unit.toward.map(Readout::raw);
+            registers(file, &[("light_x", x), ("light_y", y), ("light_z", z)])?;
+            registers(file, &[("ambient", unit.ambient.raw()), ("shade_one", unit.one.raw())])?;
+        }
+        registers(
+            &self.files["ramp"],
             &[
-                ("sky", Some(packed(unit.flat.sky))),
-                ("far", Some(packed(unit.flat.far))),
-                ("side", Some(packed(unit.flat.side))),
-                ("ramp_exponent", Some(unit.ramp.exponent.into())),
-                ("ramp_gain", unit.ramp.gain.raw()),
+                ("ramp_exponent", Some(shader.ramp.exponent.into())),
+                ("ramp_gain", shader.ramp.gain.raw()),
+                ("ramp_last", Some(shader.ramp.segments.len() as i64 - 1)),
             ],
         )?;
-        if let Some(light) = &unit.light {
-            let [x, y, z] = light.toward.map(Readout::raw);
-            let light = [("light_x", x), ("light_y", y), ("light_z", z)];
-            registers(file, &light)?;
-        }
-        let mut line = wires(world, file)?;
-        unit.run(&mut line);
-        compare(file, &line, chain)
+        registers(&self.files["mixer"], &[("lit", Some(shader.light.is_some().into()))])?;
+        registers(
+            &self.files["pixel"],
+            &[
+                ("sky_color", Some(packed(shader.pixel.sky))),
+                ("far_color", Some(packed(shader.pixel.out_of_range))),
+                ("side_color", Some(packed(shader.pixel.side))),
+            ],
+        )
     }
 }
 
@@ -260,8 +266,9 @@ fn registers(file: &File, expected: &[(&str, Option<i64>)]) -> Result<(), String
     Ok(())
 }
 
-fn packed(color: [u8; 3]) -> i64 {
-    color.into_iter().fold(0, |all, byte| all << 8 | i64::from(byte))
+/// A colour as a register holds it: red in the low byte.
+fn packed([red, green, blue]: [u8; 3]) -> i64 {
+    i64::from(red) | i64::from(green) << 8 | i64::from(blue) << 16
 }
 
 /// The inputs of a file on the wires of a line. What does not matter is whatever is there.
@@ -272,8 +279,8 @@ fn wires<W: Complete>(world: &W, file: &File) -> Result<Line<W>, String> {
             let Some(bits) = row[at] else { continue };
             let refused = || format!("{} row {n}: {}", file.name, column.name);
             macro_rules! load {
-                ($wire:ident, $class:ident, $register:ident) => {
-                    line.$wire[n] = Load::load_raw(bits, world.$class(Register::$register))
+                ($wire:ident $([$channel:literal])?, $class:ident, $register:ident) => {
+                    line.$wire[n]$([$channel])? = Load::load_raw(bits, world.$class(Register::$register))
                         .ok_or_else(refused)?
                 };
             }
@@ -282,11 +289,20 @@ fn wires<W: Complete>(world: &W, file: &File) -> Result<Line<W>, String> {
                 "view_y" => load!(view_y, view, ViewY),
                 "view_z" => load!(view_z, view, ViewZ),
                 "denominator" => load!(denominator, view, Denominator),
+                "entry_x" => load!(entry_x, ground, GroundX),
+                "entry_z" => load!(entry_z, ground, GroundZ),
                 "ground_x" => load!(ground_x, ground, GroundX),
                 "ground_z" => load!(ground_z, ground, GroundZ),
                 "surface" => load!(surface, height, Surface),
                 "slope_x" => load!(slope_x, height, SlopeX),
                 "slope_z" => load!(slope_z, height, SlopeZ),
+                "shade" => load!(shade, tone, Shade),
+                "albedo_red" => load!(albedo[0], tone, Channel),
+                "albedo_green" => load!(albedo[1], tone, Channel),
+                "albedo_blue" => load!(albedo[2], tone, Channel),
+                "lit_red" => load!(lit[0], tone, Channel),
+                "lit_green" => load!(lit[1], tone, Channel),
+                "lit_blue" => load!(lit[2], tone, Channel),
                 "entry" => line.entry[n] = *ENTRIES.get(bits as usize).ok_or_else(refused)?,
                 "hit" => line.hit[n] = *HITS.get(bits as usize).ok_or_else(refused)?,
                 other => return Err(format!("{}: {other}", file.name)),
@@ -298,26 +314,39 @@ fn wires<W: Complete>(world: &W, file: &File) -> Result<Line<W>, String> {
 
 /// Compares the outputs of a file with the wires that a unit has driven, by the page's rules of
 /// what matters.
-fn compare<W: Complete>(file: &File, line: &Line<W>, chain: &Chain) -> Result<(), String> {
+fn compare<W: Complete>(
+    file: &File,
+    line: &Line<W>,
+    work: impl Fn(usize) -> u32,
+) -> Result<(), String> {
     for (at, column) in file.columns.iter().enumerate().filter(|(_, c)| c.way == "out") {
         for (n, row) in file.rows.iter().enumerate() {
-            let met = if file.name == "divider.mem" {
-                line.entry[n] == Entry::Met
-            } else {
-                matches!(line.hit[n], Hit::Surface | Hit::Side)
+            let met = match file.name.as_str() {
+                "divider.mem" => line.entry[n] == Entry::Met,
+                "light.mem" | "ramp.mem" | "mixer.mem" => line.hit[n] == Hit::Surface,
+                _ => matches!(line.hit[n], Hit::Surface | Hit::Side),
             };
             let expected = match column.name.as_str() {
                 "entry" => Some(line.entry[n] as i64),
                 "hit" => Some(line.hit[n] as i64),
                 "color" => Some(packed(line.color[n])),
-                "work" => Some(chain.stepper_work(line.work[n]).into()),
+                "work" => Some(work(n).into()),
                 _ if !met => None,
+                "entry_x" => line.entry_x[n].raw(),
+                "entry_z" => line.entry_z[n].raw(),
                 "ground_x" => line.ground_x[n].raw(),
                 "ground_z" => line.ground_z[n].raw(),
                 "steps" => Some(line.steps[n].into()),
                 "surface" => line.surface[n].raw(),
                 "slope_x" => line.slope_x[n].raw(),
                 "slope_z" => line.slope_z[n].raw(),
+                "shade" => line.shade[n].raw(),
+                "albedo_red" => line.albedo[n][0].raw(),
+                "albedo_green" => line.albedo[n][1].raw(),
+                "albedo_blue" => line.albedo[n][2].raw(),
+                "lit_red" => line.lit[n][0].raw(),
+                "lit_green" => line.lit[n][1].raw(),
+                "lit_blue" => line.lit[n][2].raw(),
                 other => return Err(format!("{}: {other}", file.name)),
             };
             if row[at] != expected {

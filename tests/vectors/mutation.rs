@@ -62,7 +62,7 @@ fn a_row_with_another_digit_is_not_what_the_units_answer() {
             for n in (0..rows).step_by(rows.div_ceil(30)) {
                 for at in 0..files[&stem].columns.len() {
                     let column = files[&stem].columns[at].clone();
-                    // Inputs of hostile rows are anybody's choice, and need no certain answer.
+                    // Inputs of corner cases are anybody's choice, and need no certain answer.
                     if n >= of_scene && column.way == "in" && column.name != "set" {
                         continue;
                     }

@@ -32,7 +32,7 @@ pub struct File {
     pub registers: BTreeMap<String, (Notation, i64)>,
     pub columns: Vec<Column>,
     pub rows: Vec<Row>,
-    /// Rows of the scene; the others are hostile.
+    /// Rows of the scene; the others are corner cases.
     pub of_scene: usize,
 }
 
@@ -153,7 +153,7 @@ pub fn read(name: &str, text: &str) -> Result<File, String> {
     }
     let counts = header(&mut lines, "rows")?;
     let counts: Vec<usize> = counts.split(' ').filter_map(|n| n.parse().ok()).collect();
-    let [all, of_scene, hostile] = counts[..] else { return Err("rows: three numbers".into()) };
+    let [all, of_scene, corner_cases] = counts[..] else { return Err("rows: three numbers".into()) };
     let mut rows = Vec::new();
     for line in lines {
         let words: Vec<&str> = line.split(' ').collect();
@@ -163,8 +163,8 @@ pub fn read(name: &str, text: &str) -> Result<File, String> {
         let words = words.iter().zip(&columns).map(|(text, column)| word(text, column.notation));
         rows.push(words.collect::<Result<Row, String>>()?);
     }
-    if rows.len() != all || of_scene + hostile != all {
-        return Err(format!("{} rows of {all}, {of_scene} and {hostile}", rows.len()));
+    if rows.len() != all || of_scene + corner_cases != all {
+        return Err(format!("{} rows of {all}, {of_scene} and {corner_cases}", rows.len()));
     }
     Ok(File { name: name.into(), scene, further, registers, columns, rows, of_scene })
 }

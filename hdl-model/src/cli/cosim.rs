@@ -16,6 +16,7 @@ use terraline::setup::{Memory, Setup};
 use terraline::word::Complete;
 
 use crate::cosim::{self, Outcome, Window};
+use crate::machine::Machine;
 use crate::waves;
 
 /// Draw a scene with the RTL and compare every output of every unit, and every cycle, with the
@@ -83,14 +84,17 @@ struct Compare<'a> {
 }
 
 impl InFixedWorld for Compare<'_> {
-    type Output = Result<Outcome, String>;
+    type Output = Result<(Outcome, Option<String>), String>;
 
     fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
         let memory =
             Memory::new(&world, self.scene, self.plan).map_err(|error| error.to_string())?;
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())
             .map_err(|error| error.to_string())?;
-        cosim::compare(&setup, &self.scene.machine, self.sink, self.trace)
+        let machine = Machine::new(&setup)?;
+        let waves = self.trace.map(|(path, _)| waves::gtkw(Path::new(path), &setup, &machine));
+        let outcome = cosim::compare_with(machine, &setup, self.sink, self.trace)?;
+        Ok((outcome, waves))
     }
 }
 
@@ -116,10 +120,12 @@ impl Cosim {
             trace: path.map(|path| (path, window)),
         };
         let start = Instant::now();
-        let outcome = report::while_waiting("the RTL draws", || planned.world.run(compare))
-            .map_err(refuse)?;
+        let (outcome, waves) =
+            report::while_waiting("the RTL draws", || planned.world.run(compare))
+                .map_err(refuse)?;
         let seconds = start.elapsed().as_secs_f64();
-        let waves = self.trace.as_deref().map(|trace| write_waves(trace, plan)).transpose()?;
+        let waves = self.trace.as_deref().zip(waves);
+        let waves = waves.map(|(trace, text)| write_waves(trace, &text)).transpose()?;
         let equal = outcome.is_equal();
         let found = Report {
             equal,
@@ -182,9 +188,9 @@ fn trace_path(path: &Path) -> Result<&str, Stop> {
     })
 }
 
-fn write_waves(trace: &Path, plan: &Plan) -> Result<PathBuf, Stop> {
+fn write_waves(trace: &Path, text: &str) -> Result<PathBuf, Stop> {
     let path = trace.with_extension("gtkw");
-    std::fs::write(&path, waves::gtkw(trace, plan))
+    std::fs::write(&path, text)
         .map_err(|error| Stop::BadInput(format!("{}: {error}", path.display())))?;
     Ok(path)
 }

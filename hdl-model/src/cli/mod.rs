@@ -4,7 +4,7 @@
 mod cosim;
 mod multipliers;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -52,9 +52,21 @@ enum Command {
     },
 }
 
-/// The generated files of `rtl/`, with their texts.
-pub fn generated() -> [(&'static str, String); 2] {
-    [("rtl/terraline_pkg.sv", package::package()), ("rtl/registers.sv", package::registers())]
+/// The generated files of `rtl/`, with their texts; of the machine, a part is generated.
+///
+/// # Errors
+/// If the machine cannot be read, or does not say where the generated part belongs.
+pub fn generated() -> Result<[(PathBuf, String); 3], String> {
+    let rtl = Path::new(env!("CARGO_MANIFEST_DIR")).join("rtl");
+    let file = |name: &str| rtl.join(name);
+    let machine = file("terraline.sv");
+    let text = std::fs::read_to_string(&machine)
+        .map_err(|error| format!("{}: {error}", machine.display()))?;
+    Ok([
+        (file("terraline_pkg.sv"), package::package()),
+        (file("registers.sv"), package::registers()),
+        (machine, package::with_bank(&text)?),
+    ])
 }
 
 /// Runs the command line of this process.
@@ -84,8 +96,7 @@ pub fn main() -> ExitCode {
 }
 
 fn generate() -> Result<(), Stop> {
-    for (file, text) in generated() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    for (path, text) in generated().map_err(Stop::BadInput)? {
         std::fs::write(&path, text)
             .map_err(|error| Stop::BadInput(format!("{}: {error}", path.display())))?;
         report::print(&path.display().to_string());

@@ -1,139 +1,113 @@
 //! The open files of units: each runs its unit on a line and writes the wires before and after.
 
-use super::hostile::Hostile;
-use super::text::{Header, Sheet, Written};
-use super::units::{self, Unit};
-use super::wires::Wire;
-use super::{Files, shading};
-use crate::clock::Chain;
-use crate::setup::{Back, Setup, TerrainUnits};
+use super::Files;
+use super::corner_cases::CornerCases;
+use super::text::{Header, Heading, Sheet, Way, Written};
+use super::wires::{COUNT, bits, heading, place, registers};
+use crate::setup::Setup;
 use crate::sink::SinkError;
-use crate::unit::Line;
-use crate::unit::checker::Checker;
-use crate::unit::divider::Divider;
+use crate::unit::coefficient::Bank;
+use crate::unit::{Cycles, Line, Unit, Wire};
 use crate::word::Complete;
 
 /// The open file of a unit.
-pub struct Bench<'a, W: Complete> {
-    unit: Unit<'a, W>,
+struct Bench<'a, W: Complete> {
+    unit: &'a dyn Unit<W>,
+    inputs: Vec<Wire>,
+    outputs: Vec<Wire>,
+    /// Cycles of its work, where they are not the same on every item.
+    work: Option<Cycles>,
     sheet: Sheet<'a>,
 }
 
+/// The header of a unit's file.
+pub fn header<W: Complete>(files: &Files<'_>, world: &W, unit: &dyn Unit<W>) -> Header {
+    let description = unit.description();
+    let mut lines = vec![format!("page docs/units/{}.md", description.name)];
+    lines.extend(files.vectors.formats(world, description.registers));
+    let mut bank = Bank::default();
+    unit.coefficients(&mut bank);
+    let inputs = unit.inputs().into_iter().map(|wire| heading(world, Way::In, wire));
+    let outputs = unit.outputs().into_iter().map(|wire| heading(world, Way::Out, wire));
+    Header {
+        stem: description.name.into(),
+        holds: description.gives,
+        lines,
+        registers: registers(world, &bank),
+        columns: place().into_iter().chain(inputs).chain(outputs).collect(),
+        rows: files.vectors.selection.pixels(),
+        corner_cases: files.vectors.corner_cases.into(),
+    }
+}
+
 impl<'a, W: Complete> Bench<'a, W> {
-    /// The header of a unit's file.
-    pub fn header(files: &Files<'_>, world: &W, unit: &Unit<'_, W>) -> Header {
-        let mut lines = vec![format!("page docs/units/{}.md", unit.page)];
-        lines.extend(files.vectors.formats(world, unit.registers));
-        Header {
-            stem: unit.stem.into(),
-            holds: unit.holds,
-            lines,
-            coefficients: unit.coefficients.clone(),
-            columns: unit.wires.iter().map(|wire| wire.heading.clone()).collect(),
-            rows: files.vectors.selection.pixels(),
-            hostile: files.vectors.hostile.into(),
-        }
+    fn begin(
+        files: &Files<'a>,
+        setup: &'a Setup<W>,
+        unit: &'a dyn Unit<W>,
+    ) -> Result<Self, SinkError> {
+        let mut header = header(files, &setup.world, unit);
+        let work = unit.timing(setup.memory_latency).work;
+        let work = (work != Cycles::every(work.item)).then_some(work);
+        header.columns.extend(work.map(|_| Heading {
+            way: Way::Out,
+            name: "work".into(),
+            notation: COUNT,
+            meaning: "cycles of work on the item".into(),
+        }));
+        let sheet = Sheet::begin(files.folder, files.scene, &header)?;
+        Ok(Self { unit, inputs: unit.inputs(), outputs: unit.outputs(), work, sheet })
     }
 
-    /// Begins the file of a unit.
-    pub fn begin(files: &Files<'a>, world: &W, unit: Unit<'a, W>) -> Result<Self, SinkError> {
-        let header = Self::header(files, world, &unit);
-        Ok(Self { sheet: Sheet::begin(files.folder, files.scene, &header)?, unit })
-    }
-
-    /// Runs the unit on a line and writes a row for every pixel.
-    pub fn run(
-        &mut self,
-        line: &mut Line<W>,
-        hostile: bool,
-        unit: impl FnOnce(&mut Line<W>),
-    ) -> Result<(), SinkError> {
+    /// Runs the unit on a line and writes a row for every pixel. Corner cases are no pixels.
+    fn rows(&mut self, line: &mut Line<W>, corner_cases: bool) -> Result<(), SinkError> {
         let before = line.clone();
-        unit(line);
+        self.unit.run(line);
         for at in 0..line.len() {
-            let bits = |wire: &Wire<'_, W>| wire.bits(&before, line, at, hostile);
-            self.sheet.row(self.unit.wires.iter().map(bits))?;
+            let place = [line.number, line.column[at]].map(|n| (!corner_cases).then_some(n.into()));
+            let inputs = self.inputs.iter().map(|&wire| bits(&before, wire, at));
+            let outputs = self.outputs.iter().map(|&wire| bits(line, wire, at));
+            let work = self.work.map(|work| Some(work.of(line.work[at]).into()));
+            self.sheet.row(place.into_iter().chain(inputs).chain(outputs).chain(work))?;
+        }
+        Ok(())
+    }
+}
+
+/// The open files of the units behind the projector, in the order of the chain.
+pub struct Benches<'a, W: Complete> {
+    setup: &'a Setup<W>,
+    benches: Vec<Bench<'a, W>>,
+}
+
+impl<'a, W: Complete> Benches<'a, W> {
+    /// Begins the files of the units that are fitted and work.
+    pub fn begin(files: &Files<'a>, setup: &'a Setup<W>) -> Result<Self, SinkError> {
+        let units = setup.chain().into_iter().skip(1).filter(|unit| !unit.is_idle());
+        let benches = units.map(|unit| Bench::begin(files, setup, unit));
+        Ok(Self { setup, benches: benches.collect::<Result<_, _>>()? })
+    }
+
+    /// Runs all units on a line of the scene, which the projector has driven, and writes its rows.
+    pub fn rows(&mut self, line: &mut Line<W>) -> Result<(), SinkError> {
+        self.benches.iter_mut().try_for_each(|bench| bench.rows(line, false))
+    }
+
+    /// Writes so many corner cases of every unit.
+    pub fn corner_cases(
+        &mut self,
+        cases: &mut CornerCases<W>,
+        count: u32,
+    ) -> Result<(), SinkError> {
+        for bench in &mut self.benches {
+            let mut line = cases.line(self.setup, bench.unit.description(), count);
+            bench.rows(&mut line, true)?;
         }
         Ok(())
     }
 
-    /// Closes the file.
-    pub fn finish(self) -> Result<Written, SinkError> {
-        self.sheet.finish()
-    }
-}
-
-/// The open files of the units behind the divider.
-pub enum Behind<'a, W: Complete> {
-    /// Stepper, interpolator, shader of a height map.
-    Terrain(&'a TerrainUnits<W>, Box<[Bench<'a, W>; 3]>),
-    /// Shader of a plane.
-    Plane(&'a Checker<W>, Box<Bench<'a, W>>),
-}
-
-impl<'a, W: Complete> Behind<'a, W> {
-    /// Begins their files.
-    pub fn begin(
-        files: &Files<'a>,
-        setup: &'a Setup<W>,
-        chain: &'a Chain,
-    ) -> Result<Self, SinkError> {
-        let world = &setup.world;
-        let begin = |unit| Bench::begin(files, world, unit);
-        Ok(match &setup.back {
-            Back::Terrain(units) => {
-                let stepper = begin(units::stepper(world, units, chain))?;
-                let interpolator = begin(units::interpolator(world, &units.interpolator))?;
-                let shader = begin(shading::shader(world, &units.shader))?;
-                Self::Terrain(units, Box::new([stepper, interpolator, shader]))
-            }
-            Back::Plane(unit) => Self::Plane(unit, Box::new(begin(shading::checker(world, unit))?)),
-        })
-    }
-
-    /// One line of the scene through all of them.
-    pub fn run(&mut self, line: &mut Line<W>) -> Result<(), SinkError> {
-        match self {
-            Self::Terrain(units, benches) => {
-                let [stepper, interpolator, shader] = &mut **benches;
-                stepper.run(line, false, |line| units.stepper.run(line, &units.interpolator))?;
-                interpolator.run(line, false, |line| units.interpolator.run(line))?;
-                shader.run(line, false, |line| units.shader.run(line))
-            }
-            Self::Plane(unit, checker) => checker.run(line, false, |line| unit.run(line)),
-        }
-    }
-
-    /// Hostile rows of each of them.
-    pub fn run_hostile(
-        &mut self,
-        hostile: &mut Hostile<W>,
-        divider: Option<&Divider<W>>,
-        count: u32,
-    ) -> Result<(), SinkError> {
-        match self {
-            Self::Terrain(units, benches) => {
-                let [stepper, interpolator, shader] = &mut **benches;
-                let mut line = hostile.stepper(units, divider, count);
-                stepper
-                    .run(&mut line, true, |line| units.stepper.run(line, &units.interpolator))?;
-                let mut line = hostile.interpolator(units, count);
-                interpolator.run(&mut line, true, |line| units.interpolator.run(line))?;
-                let mut line = hostile.shader(units, count);
-                shader.run(&mut line, true, |line| units.shader.run(line))
-            }
-            Self::Plane(unit, checker) => {
-                let mut line = hostile.checker(unit, divider, count);
-                checker.run(&mut line, true, |line| unit.run(line))
-            }
-        }
-    }
-
-    /// Closes their files.
+    /// Closes the files.
     pub fn finish(self) -> Result<Vec<Written>, SinkError> {
-        match self {
-            Self::Terrain(_, benches) => benches.into_iter().map(Bench::finish).collect(),
-            Self::Plane(_, checker) => Ok(vec![checker.finish()?]),
-        }
+        self.benches.into_iter().map(|bench| bench.sheet.finish()).collect()
     }
 }

@@ -9,8 +9,8 @@ use crate::unit::height_memory::Edge;
 use crate::unit::pyramid::Pyramid;
 use crate::word::{Complete, Readout, Register, World};
 
-fn heading(name: &str, notation: Notation, meaning: &'static str) -> Heading {
-    Heading { way: Way::Word, name: name.into(), notation, meaning }
+fn heading(name: &str, notation: Notation, meaning: &str) -> Heading {
+    Heading { way: Way::Word, name: name.into(), notation, meaning: meaning.into() }
 }
 
 fn header(stem: &str, holds: &'static str, address: &str, columns: Vec<Heading>) -> Header {
@@ -18,10 +18,10 @@ fn header(stem: &str, holds: &'static str, address: &str, columns: Vec<Heading>)
         stem: stem.into(),
         holds,
         lines: vec![format!("address {address}")],
-        coefficients: Vec::new(),
+        registers: Vec::new(),
         columns,
         rows: 0,
-        hostile: 0,
+        corner_cases: 0,
     }
 }
 
@@ -125,7 +125,7 @@ pub fn write<W: Complete>(
             heading(&format!("{name}_rise"), channel, "what it rises by over the segment"),
         ]
     });
-    let header = header("ramp", "segments of the ramp", "segment", columns.collect());
+    let header = header("ramp_segments", "segments of the ramp", "segment", columns.collect());
     memories.put(header, segments.len(), |at| {
         segments[at].iter().flat_map(|(start, rise)| [start.raw(), rise.raw()]).collect()
     })?;

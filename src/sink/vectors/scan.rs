@@ -1,87 +1,94 @@
-//! The projector's files. It has no input but its coefficients, so hostile rows have coefficients
+//! The projector's files. It has no input but its coefficients, so corner cases have coefficients
 //! of their own, each set scanned over a small raster; a second file lists the sets.
 
 use super::Files;
-use super::bench::Bench;
-use super::hostile::{Hostile, RASTER};
-use super::text::{Coefficient, Heading, Sheet, Way, Written};
-use super::units::{Unit, projector};
-use super::wires::COUNT;
+use super::bench::header;
+use super::corner_cases::{CornerCases, RASTER};
+use super::text::{Heading, Register, Sheet, Way, Written};
+use super::wires::{COUNT, bits, registers};
 use crate::setup::Setup;
 use crate::sink::SinkError;
-use crate::unit::Line;
+use crate::unit::coefficient::Bank;
 use crate::unit::projector::Projector;
+use crate::unit::{Line, Unit, Wire};
 use crate::word::Complete;
 
 /// The open files of the projector.
 pub struct Scan<'a, W: Complete> {
     world: W,
-    unit: Unit<'a, W>,
+    outputs: Vec<Wire>,
     rows: Sheet<'a>,
     sets: Sheet<'a>,
+}
+
+/// The coefficients of a projector.
+fn set<W: Complete>(world: &W, unit: &Projector<W>) -> Vec<Register> {
+    let mut bank = Bank::default();
+    unit.coefficients(&mut bank);
+    registers(world, &bank)
 }
 
 impl<'a, W: Complete> Scan<'a, W> {
     /// Begins both files.
     pub fn begin(files: &Files<'a>, setup: &Setup<W>) -> Result<Self, SinkError> {
-        let unit = projector(&setup.world, &setup.projector);
-        let mut header = Bench::header(files, &setup.world, &unit);
+        let unit = &setup.projector;
+        let mut header = header(files, &setup.world, unit);
         header.columns.insert(
             0,
             Heading {
                 way: Way::In,
                 name: "set".into(),
                 notation: COUNT,
-                meaning: "row of projector_coefficients.mem; 0 is the scene's",
+                meaning: "row of projector_coefficients.mem; 0 is the scene's".into(),
             },
         );
         header.lines.push(format!("raster {RASTER} {RASTER} of every set but the scene's"));
         let rows = Sheet::begin(files.folder, files.scene, &header)?;
         header.stem = "projector_coefficients".into();
         header.holds = "coefficient sets of the projector, one a row";
-        header.hostile = u64::from(files.vectors.hostile.div_ceil(RASTER * RASTER));
+        header.corner_cases = u64::from(files.vectors.corner_cases.div_ceil(RASTER * RASTER));
         header.rows = 1;
-        let heading = |c: &Coefficient| Heading {
+        let heading = |c: &Register| Heading {
             way: Way::Word,
-            name: c.name.clone(),
+            name: c.name.into(),
             notation: c.notation,
-            meaning: c.meaning,
+            meaning: c.meaning.into(),
         };
-        header.columns = unit.coefficients.iter().map(heading).collect();
+        header.columns = header.registers.iter().map(heading).collect();
         let mut sets = Sheet::begin(files.folder, files.scene, &header)?;
-        sets.row(unit.coefficients.iter().map(|c| Some(c.value)))?;
-        Ok(Self { world: setup.world, unit, rows, sets })
+        sets.row(header.registers.iter().map(|c| Some(c.value)))?;
+        Ok(Self { world: setup.world, outputs: unit.outputs(), rows, sets })
     }
 
     /// Writes the first pixels of a line that the projector has driven with a set.
     pub fn rows(&mut self, line: &Line<W>, set: u32, most: usize) -> Result<(), SinkError> {
         for at in 0..line.len().min(most) {
-            let wires = self.unit.wires.iter().map(|wire| wire.bits(line, line, at, false));
-            self.rows.row(std::iter::once(Some(set.into())).chain(wires))?;
+            let place = [line.number, line.column[at]].map(|n| Some(n.into()));
+            let wires = self.outputs.iter().map(|&wire| bits(line, wire, at));
+            self.rows.row([Some(set.into())].into_iter().chain(place).chain(wires))?;
         }
         Ok(())
     }
 
-    /// Writes hostile sets and so many rows of them.
-    pub fn hostile_rows(
+    /// Writes sets of corner cases and so many rows of them.
+    pub fn corner_cases(
         &mut self,
         unit: &Projector<W>,
-        hostile: &mut Hostile<W>,
+        cases: &mut CornerCases<W>,
         count: u32,
     ) -> Result<(), SinkError> {
         let mut line = Line::new(&self.world, 0..RASTER);
-        for set in 1..=count.div_ceil(RASTER * RASTER) {
-            let other = hostile.projector(unit);
-            let coefficients = projector(&self.world, &other).coefficients;
-            self.sets.row(coefficients.iter().map(|c| Some(c.value)))?;
-            let mut left = (count - (set - 1) * RASTER * RASTER) as usize;
-            let mut start = other.first_line();
+        for number_of_set in 1..=count.div_ceil(RASTER * RASTER) {
+            let other = cases.projector(unit);
+            self.sets.row(set(&self.world, &other).iter().map(|c| Some(c.value)))?;
+            let mut left = (count - (number_of_set - 1) * RASTER * RASTER) as usize;
+            line.start = other.first_line();
             for number in 0..RASTER {
                 line.number = number;
-                other.run(&start, &mut line);
-                self.rows(&line, set, left)?;
+                other.run(&mut line);
+                self.rows(&line, number_of_set, left)?;
                 left = left.saturating_sub(line.len());
-                other.next_line(&mut start);
+                other.next_line(&mut line.start);
             }
         }
         Ok(())

@@ -93,14 +93,14 @@ pub struct Heading {
     /// How its words are written.
     pub notation: Notation,
     /// What it holds.
-    pub meaning: &'static str,
+    pub meaning: String,
 }
 
-/// A coefficient register.
+/// A coefficient register with its value.
 #[derive(Clone, Debug)]
-pub struct Coefficient {
+pub struct Register {
     /// Name.
-    pub name: String,
+    pub name: &'static str,
     /// How it is written.
     pub notation: Notation,
     /// What it holds.
@@ -119,13 +119,13 @@ pub struct Header {
     /// Further lines, each a key and a value.
     pub lines: Vec<String>,
     /// Coefficient registers.
-    pub coefficients: Vec<Coefficient>,
+    pub registers: Vec<Register>,
     /// Columns.
     pub columns: Vec<Heading>,
     /// Rows of the scene.
     pub rows: u64,
-    /// Hostile rows after them.
-    pub hostile: u64,
+    /// Corner cases after them.
+    pub corner_cases: u64,
 }
 
 impl Header {
@@ -136,7 +136,7 @@ impl Header {
         for line in scene.iter().chain(&self.lines) {
             let _ = writeln!(out, "// {line}");
         }
-        for c in &self.coefficients {
+        for c in &self.registers {
             let _ = write!(out, "// register {} {} ", c.name, c.notation);
             c.notation.write(Some(c.value), &mut out);
             let _ = writeln!(out, " {}", c.meaning);
@@ -145,8 +145,8 @@ impl Header {
             let (way, name) = (c.way.name(), &c.name);
             let _ = writeln!(out, "// column {at} {way} {name} {} {}", c.notation, c.meaning);
         }
-        let all = self.rows + self.hostile;
-        let _ = writeln!(out, "// rows {all} {} {}", self.rows, self.hostile);
+        let all = self.rows + self.corner_cases;
+        let _ = writeln!(out, "// rows {all} {} {}", self.rows, self.corner_cases);
         out
     }
 }

@@ -2,11 +2,11 @@
 
 use super::Files;
 use super::text::{Header, Heading, Notation, Sheet, Way, Written};
-use super::wires::PLACE;
-use crate::clock::{Chain, Clock};
+use super::wires::place;
+use crate::clock::{Chain, Clock, Stage};
 use crate::sink::SinkError;
-use crate::unit::Line;
-use crate::unit::line::Work;
+use crate::unit;
+use crate::unit::{Cycles, Line};
 use crate::word::World;
 
 /// Cycles of a frame.
@@ -20,44 +20,37 @@ pub struct Timing<'a> {
 
 impl<'a> Timing<'a> {
     /// Begins the file; the clock starts with its first row.
-    pub fn begin(files: &Files<'a>, chain: &Chain) -> Result<Self, SinkError> {
-        let heading = |name: String, notation, meaning| Heading {
-            way: if notation == PLACE { Way::At } else { Way::Out },
-            name,
-            notation,
-            meaning,
-        };
-        let mut columns = vec![
-            heading("line".into(), PLACE, "scan line from the top"),
-            heading("column".into(), PLACE, "column from the left"),
-        ];
+    pub fn begin(files: &Files<'a>, chain: Chain) -> Result<Self, SinkError> {
         let memory_latency = files.vectors.scene.machine.memory_latency;
         let mut lines = vec![
             "page docs/cycles.md".into(),
             "equation 28".into(),
             format!("memory_latency {memory_latency}"),
         ];
-        let nothing = Work::default();
-        for (at, stage) in chain.stages.iter().enumerate() {
-            let fixed = chain.work(at, nothing);
-            let varies = chain.work(at, Work { trials: 1, ..nothing }) != fixed;
-            let work = if varies { "varies".into() } else { fixed.to_string() };
-            let (name, latency, depth) = (stage.name, stage.latency, stage.depth);
+        let mut columns = place().to_vec();
+        for Stage { name, timing } in &chain.stages {
+            let unit::Timing { work, latency, depth } = *timing;
+            let varies = work != Cycles::every(work.item);
+            let work = if varies { "varies".into() } else { work.item.to_string() };
             lines.push(format!("stage {name} work {work} latency {latency} depth {depth}"));
-            let meaning = "cycle, from 0, in which it takes the item";
-            columns.push(heading(format!("take_{}", stage.name), CYCLE, meaning));
+            columns.push(Heading {
+                way: Way::Out,
+                name: format!("take_{name}"),
+                notation: CYCLE,
+                meaning: "cycle, from 0, in which it takes the item".into(),
+            });
         }
         let header = Header {
             stem: "cycles".into(),
             holds: "cycles in which the units take the rows of the scene, fed one after the other",
             lines,
-            coefficients: Vec::new(),
+            registers: Vec::new(),
             columns,
             rows: files.vectors.selection.pixels(),
-            hostile: 0,
+            corner_cases: 0,
         };
         let sheet = Sheet::begin(files.folder, files.scene, &header)?;
-        Ok(Self { clock: Clock::new(chain.clone()), sheet })
+        Ok(Self { clock: Clock::new(chain), sheet })
     }
 
     /// Takes a finished line.

@@ -2,10 +2,12 @@
 
 use glam::DVec3;
 
+use super::quantity::Quantity::{self, Wire as Of};
 use crate::oracle::Sighting;
 use crate::plan::{Ground, Plan};
 use crate::scene::Scene;
 use crate::setup::coefficients::Coefficients;
+use crate::unit::Wire;
 
 /// Closed forms of a pixel's registers.
 pub(super) struct Closed<'a> {
@@ -31,7 +33,7 @@ impl Closed<'_> {
         light.ambient + (1.0 - light.ambient) * diffuse
     }
 
-    pub fn value(&self, what: &str) -> Option<f64> {
+    pub fn value(&self, quantity: Quantity) -> Option<f64> {
         match &self.plan.ground {
             Ground::Terrain(walk) => {
                 let view = self.direction / walk.lengths;
@@ -43,23 +45,23 @@ impl Closed<'_> {
                     let n = self.sighting.normal;
                     met.then(|| n.to_array()[at] / n.y)
                 };
-                match what {
-                    "view, x" => Some(view.x * scale),
-                    "view, y" => Some(view.y * scale),
-                    "view, z" => Some(view.z * scale),
-                    "denominator" if !walk.from_eye => {
+                match quantity {
+                    Of(Wire::ViewX) => Some(view.x * scale),
+                    Of(Wire::ViewY) => Some(view.y * scale),
+                    Of(Wire::ViewZ) => Some(view.z * scale),
+                    Of(Wire::Denominator) if !walk.from_eye => {
                         let scale = libm::scalbn(1.0, self.coefficients.denominator_exponent);
                         Some(view.y / (walk.top - eye.y) * scale)
                     }
-                    "entry, x" => Some(eye.x + lambda * view.x),
-                    "entry, z" => Some(eye.z + lambda * view.z),
-                    "hit, x" => met.then(|| self.sighting.point.x / walk.lengths.x),
-                    "hit, z" => met.then(|| self.sighting.point.z / walk.lengths.z),
-                    "surface height" => met.then(|| walk.scale.to_register(self.sighting.point.y)),
-                    "place on the ramp" if met => Some(self.ramp(walk.top)),
-                    "light" if met => Some(self.light()),
-                    "slope, x" => slope(0),
-                    "slope, z" => slope(2),
+                    Of(Wire::EntryX) => Some(eye.x + lambda * view.x),
+                    Of(Wire::EntryZ) => Some(eye.z + lambda * view.z),
+                    Of(Wire::GroundX) => met.then(|| self.sighting.point.x / walk.lengths.x),
+                    Of(Wire::GroundZ) => met.then(|| self.sighting.point.z / walk.lengths.z),
+                    Of(Wire::Surface) => met.then(|| walk.scale.to_register(self.sighting.point.y)),
+                    Quantity::RampPlace if met => Some(self.ramp(walk.top)),
+                    Of(Wire::Shade) if met => Some(self.light()),
+                    Of(Wire::SlopeX) => slope(0),
+                    Of(Wire::SlopeZ) => slope(2),
                     _ => None,
                 }
             }
@@ -74,15 +76,15 @@ impl Closed<'_> {
                             / plane.checker
                     })
                 };
-                match what {
-                    "view, x" => Some(along(0) * scale),
-                    "view, z" => Some(along(1) * scale),
-                    "denominator" if plane.numerator != 0.0 => {
+                match quantity {
+                    Of(Wire::ViewX) => Some(along(0) * scale),
+                    Of(Wire::ViewZ) => Some(along(1) * scale),
+                    Of(Wire::Denominator) if plane.numerator != 0.0 => {
                         let scale = libm::scalbn(1.0, self.coefficients.denominator_exponent);
                         Some(g / plane.numerator * scale)
                     }
-                    "entry, x" => point(0),
-                    "entry, z" => point(1),
+                    Of(Wire::EntryX) => point(0),
+                    Of(Wire::EntryZ) => point(1),
                     _ => None,
                 }
             }

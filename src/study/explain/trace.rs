@@ -1,25 +1,25 @@
 //! What one number world says of one pixel, register by register.
 
+use super::quantity::{Axis, Quantity};
 use crate::engine::InFixedWorld;
 use crate::fast::enter::Enterable;
 use crate::frame::Hit;
 use crate::plan::Plan;
-use crate::processor;
+use crate::processor::Processor;
 use crate::scene::Scene;
 use crate::setup::{Back, Memory, Setup, SetupError, TerrainUnits};
-use crate::unit::Line;
-use crate::unit::divider::Method;
-use crate::unit::interpolator::{AT_THE_HIT, Form};
+use crate::unit::interpolator::{AT_THE_HIT, Form, Interpolator};
 use crate::unit::line::{Entry, Work};
 use crate::unit::stepper::Place;
+use crate::unit::{Line, Wire};
 use crate::word::{Cell, Complete, Fixed, Readout, Register, Site};
 
-/// A register as one world has it.
-#[derive(Clone, Debug)]
+/// A quantity as one world has it.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
+    /// Unit that drives it.
     pub unit: &'static str,
-    pub register: Register,
-    pub what: String,
+    pub quantity: Quantity,
     pub raw: Option<i64>,
     pub value: f64,
 }
@@ -27,7 +27,6 @@ pub(super) struct Reading {
 /// What one world says of the pixel.
 #[derive(Clone, Debug)]
 pub(super) struct Trace {
-    unit: &'static str,
     pub hit: Hit,
     pub steps: u32,
     pub work: Work,
@@ -43,24 +42,36 @@ pub(super) struct Trace {
 }
 
 impl Trace {
-    /// The unit that drives the readings that follow.
-    fn unit(&mut self, unit: &'static str) {
-        self.unit = unit;
+    pub fn value(&self, quantity: Quantity) -> Option<f64> {
+        let found = self.readings.iter().find(|reading| reading.quantity == quantity);
+        found.map(|reading| reading.value)
     }
+}
 
-    fn read(&mut self, register: Register, what: impl Into<String>, word: impl Readout) {
+/// The readings of a unit, in the order of the data flow.
+struct Readings<'a> {
+    unit: &'static str,
+    readings: &'a mut Vec<Reading>,
+}
+
+impl Readings<'_> {
+    fn read(&mut self, quantity: Quantity, word: impl Readout) {
         let (raw, value) = (word.raw(), word.value());
-        self.readings.push(Reading { unit: self.unit, register, what: what.into(), raw, value });
+        self.readings.push(Reading { unit: self.unit, quantity, raw, value });
     }
 
-    fn place<W: Complete>(&mut self, what: &str, place: Place<W>) {
-        self.read(Register::GroundX, format!("{what}, x"), place.x);
-        self.read(Register::RayY, format!("{what}, y"), place.y);
-        self.read(Register::GroundZ, format!("{what}, z"), place.z);
+    fn place<W: Complete>(&mut self, quantity: fn(Axis) -> Quantity, place: Place<W>) {
+        self.read(quantity(Axis::X), place.x);
+        self.read(quantity(Axis::Y), place.y);
+        self.read(quantity(Axis::Z), place.z);
     }
 
-    pub fn value(&self, what: &str) -> Option<f64> {
-        self.readings.iter().find(|reading| reading.what == what).map(|reading| reading.value)
+    /// The words on an output wire, where the unit says something.
+    fn wire<W: Complete>(&mut self, line: &Line<W>, wire: Wire) {
+        if let (true, Some(value)) = (line.is(wire.when(), 0), line.value(wire, 0)) {
+            let (quantity, raw) = (Quantity::Wire(wire), line.bits(wire, 0));
+            self.readings.push(Reading { unit: self.unit, quantity, raw, value });
+        }
     }
 }
 
@@ -86,21 +97,12 @@ impl Walk<'_> {
         let memory = Memory::new(&world, self.scene, self.plan)?;
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
         let mut line = Line::new(&world, [self.column]);
-        // The units up to the entry first, then the rest on the same wires.
-        let mut entered = line.clone();
-        let mut processor = processor::Processor::new(&setup);
+        let mut processor = Processor::new(&setup);
         for _ in 0..self.line {
             processor.skip_line();
         }
-        let start = processor.line_start();
-        entered.number = self.line;
-        setup.projector.run(start, &mut entered);
-        if let Some(divider) = &setup.divider {
-            divider.run(&mut entered, Method::Array);
-        }
         processor.run_line(&mut line);
         let mut trace = Trace {
-            unit: "projector",
             hit: line.hit[0],
             steps: line.steps[0],
             work: line.work[0],
@@ -111,45 +113,60 @@ impl Walk<'_> {
             readings: Vec::new(),
             formats: Register::ALL.iter().map(|&register| world.fixed(register)).collect(),
         };
-        trace.read(Register::ViewX, "view, x", line.view_x[0]);
-        if setup.projector.y.is_some() {
-            trace.read(Register::ViewY, "view, y", line.view_y[0]);
-        }
-        trace.read(Register::ViewZ, "view, z", line.view_z[0]);
         if setup.divider.is_some() {
-            trace.read(Register::Denominator, "denominator", line.denominator[0]);
-            trace.turned_away = match entered.entry[0] {
+            trace.turned_away = match line.entry[0] {
                 Entry::Met => None,
                 Entry::Sky => {
                     Some("the denominator is not positive: the ray does not meet the plane")
                 }
                 Entry::Far => Some("the quotient is out of range: the entry lies beyond it"),
             };
-            if entered.entry[0] == Entry::Met {
-                trace.unit("divider");
-                trace.read(Register::GroundX, "entry, x", entered.ground_x[0]);
-                trace.read(Register::GroundZ, "entry, z", entered.ground_z[0]);
+        }
+        let mut readings = Vec::new();
+        for unit in processor.chain().iter().filter(|unit| !unit.is_idle()) {
+            let name = unit.description().name;
+            let mut own = Readings { unit: name, readings: &mut readings };
+            self.inside(&setup, name, &line, &mut own, &mut trace);
+            for wire in unit.outputs() {
+                own.wire(&line, wire);
             }
         }
-        match &setup.back {
-            Back::Terrain(units) => self.terrain(units, &entered, &line, &mut trace),
-            Back::Plane(checker) => {
-                if line.entry[0] == Entry::Met {
-                    let site = Site::pixel(self.line, self.column);
-                    trace.unit("checker");
-                    let contrast = checker.contrast(line.denominator[0], site);
-                    trace.read(Register::Shade, "contrast of the squares", contrast);
-                }
-            }
-        }
+        trace.readings = readings;
         Ok(trace)
     }
 
-    fn terrain<W: Complete>(
+    /// What a unit has inside, between the wires.
+    fn inside<W: Complete>(
+        &self,
+        setup: &Setup<W>,
+        unit: &str,
+        line: &Line<W>,
+        own: &mut Readings<'_>,
+        trace: &mut Trace,
+    ) {
+        let site = Site::pixel(self.line, self.column);
+        let shown = trace.hit == Hit::Surface;
+        match (&setup.back, unit) {
+            (Back::Terrain(units), "stepper") => self.ray(units, line, own, trace),
+            (Back::Terrain(units), "interpolator") if shown || trace.hit == Hit::Side => {
+                let place = (line.ground_x[0], line.ground_z[0]);
+                interpolation(&units.interpolator, place, site, own);
+            }
+            (Back::Terrain(units), "ramp") if shown => {
+                own.read(Quantity::RampPlace, units.shader.ramp.place(line.surface[0], site));
+            }
+            (Back::Plane(checker), "checker") if line.entry[0] == Entry::Met => {
+                own.read(Quantity::Contrast, checker.contrast(line.denominator[0], site));
+            }
+            _ => {}
+        }
+    }
+
+    fn ray<W: Complete>(
         &self,
         units: &TerrainUnits<W>,
-        entered: &Line<W>,
         line: &Line<W>,
+        own: &mut Readings<'_>,
         trace: &mut Trace,
     ) {
         let stepper = &units.stepper;
@@ -157,94 +174,49 @@ impl Walk<'_> {
             // A full machine's divider runs for nothing here.
             trace.turned_away = None;
         }
-        if !stepper.from_eye && entered.entry[0] != Entry::Met {
-            return;
-        }
-        let site = Site::pixel(self.line, self.column);
-        let step = stepper.step(line.view_x[0], line.view_y[0], line.view_z[0], site);
-        let mut place = if stepper.from_eye {
-            stepper.eye()
-        } else {
-            Place { x: entered.ground_x[0], y: stepper.top, z: entered.ground_z[0] }
-        };
-        trace.unit("stepper");
-        trace.place("start of the ray", place);
-        trace.exponent = stepper.exponent(line.view_x[0], line.view_y[0], line.view_z[0]);
-        trace.read(Register::DGroundX, "step, x", step.x);
-        trace.read(Register::DRayY, "step, y", step.y);
-        trace.read(Register::DGroundZ, "step, z", step.z);
+        let Some(mut place) = stepper.start(line, 0) else { return };
+        let (x, y, z) = (line.view_x[0], line.view_y[0], line.view_z[0]);
+        let step = stepper.step(x, y, z, Site::pixel(self.line, self.column));
+        own.place(Quantity::Start, place);
+        trace.exponent = stepper.exponent(x, y, z);
+        own.place(Quantity::Step, step);
         for _ in 0..self.index.unwrap_or(trace.steps) {
-            place = Place { x: place.x + step.x, y: place.y + step.y, z: place.z + step.z };
+            place = place.plus(step);
         }
-        trace.place("last sample", place);
+        own.place(Quantity::LastSample, place);
         trace.hole =
             at_hole(units, trace.hit, place.minus(step), [line.ground_x[0], line.ground_z[0]]);
-        if !matches!(trace.hit, Hit::Surface | Hit::Side) {
-            return;
-        }
-        let (x, z) = (line.ground_x[0], line.ground_z[0]);
-        trace.read(Register::GroundX, "hit, x", x);
-        trace.read(Register::GroundZ, "hit, z", z);
-        trace.unit("interpolator");
-        self.interpolation(units, x, z, trace);
-        trace.read(Register::Surface, "surface height", line.surface[0]);
-        trace.read(Register::SlopeX, "slope, x", line.slope_x[0]);
-        trace.read(Register::SlopeZ, "slope, z", line.slope_z[0]);
-        if trace.hit == Hit::Surface {
-            let tones = units.shader.tones(line.surface[0], line.slope_x[0], line.slope_z[0], site);
-            trace.read(Register::Ramp, "place on the ramp", tones.ramp);
-            if let Some(shade) = tones.shade {
-                trace.read(Register::Shade, "light", shade);
-            }
-            for (channel, name) in tones.channels.into_iter().zip(["red", "green", "blue"]) {
-                trace.read(Register::Channel, name, channel);
-            }
-        }
     }
+}
 
-    fn interpolation<W: Complete>(
-        &self,
-        units: &TerrainUnits<W>,
-        x: W::Ground,
-        z: W::Ground,
-        trace: &mut Trace,
-    ) {
-        let site = Site::pixel(self.line, self.column);
-        let interpolator = &units.interpolator;
-        if interpolator.form == Form::Stretch {
-            let stencil = interpolator.stencil(x, z);
-            for (i, column) in stencil.nodes.iter().enumerate() {
-                for (j, node) in column.iter().enumerate() {
-                    trace.read(
-                        Register::Node,
-                        format!("node ({}, {})", i as i32 - 1, j as i32 - 1),
-                        *node,
-                    );
-                }
+/// Nodes and weights around a place.
+fn interpolation<W: Complete>(
+    interpolator: &Interpolator<W>,
+    (x, z): (W::Ground, W::Ground),
+    site: Site,
+    own: &mut Readings<'_>,
+) {
+    if interpolator.form == Form::Stretch {
+        let stencil = interpolator.stencil(x, z);
+        for (column, nodes) in (-1..).zip(stencil.nodes) {
+            for (row, node) in (-1..).zip(nodes) {
+                own.read(Quantity::Node(column, row), node);
             }
-            for (side, at) in [("before", 0), ("after", 1)] {
-                trace.read(
-                    Register::Weight,
-                    format!("weight {side}, x"),
-                    stencil.weights_x.weights[at],
-                );
-                trace.read(
-                    Register::Weight,
-                    format!("weight {side}, z"),
-                    stencil.weights_z.weights[at],
-                );
-            }
-        } else {
-            for (node, name) in interpolator.nodes(x, z).into_iter().zip(["h1", "h2", "h3", "h4"]) {
-                trace.read(Register::Node, format!("node {name}"), node);
-            }
-            let arm_x = interpolator.arm(x.fraction(), site.step(AT_THE_HIT ^ 1));
-            let arm_z = interpolator.arm(z.fraction(), site.step(AT_THE_HIT));
-            trace.read(Register::Weight, "weight, x", arm_x.weight);
-            trace.read(Register::Weight, "weight, z", arm_z.weight);
-            trace.read(Register::WeightSlope, "weight slope, x", arm_x.slope);
-            trace.read(Register::WeightSlope, "weight slope, z", arm_z.slope);
         }
+        for (axis, outer) in [(Axis::X, stencil.weights_x), (Axis::Z, stencil.weights_z)] {
+            own.read(Quantity::Weight(axis), outer.weights[0]);
+            own.read(Quantity::WeightAfter(axis), outer.weights[1]);
+        }
+    } else {
+        for (at, node) in interpolator.nodes(x, z).into_iter().enumerate() {
+            own.read(Quantity::CellNode(at), node);
+        }
+        let arm_x = interpolator.arm(x.fraction(), site.step(AT_THE_HIT ^ 1));
+        let arm_z = interpolator.arm(z.fraction(), site.step(AT_THE_HIT));
+        own.read(Quantity::Weight(Axis::X), arm_x.weight);
+        own.read(Quantity::Weight(Axis::Z), arm_z.weight);
+        own.read(Quantity::WeightSlope(Axis::X), arm_x.slope);
+        own.read(Quantity::WeightSlope(Axis::Z), arm_z.slope);
     }
 }
 

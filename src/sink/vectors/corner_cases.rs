@@ -1,25 +1,24 @@
-//! Hostile rows: words at the ends of their ranges, tiny and negative denominators, accumulators
+//! Corner cases: words at the ends of their ranges, tiny and negative denominators, accumulators
 //! that wrap, places on the rims of cells. What stands on the wires is random, but nothing that
 //! the units before would never hand on; what is expected comes from the units themselves.
 
-use super::units::{accumulators, shift};
 use crate::frame::Hit;
-use crate::setup::TerrainUnits;
-use crate::unit::Line;
+use crate::setup::{Back, Setup, TerrainUnits};
 use crate::unit::checker::Checker;
 use crate::unit::divider::Divider;
 use crate::unit::line::Entry;
 use crate::unit::projector::{Linear, Projector};
 use crate::unit::stepper::SurfaceUnit;
+use crate::unit::{Description, Line};
 use crate::word::format::mix;
 use crate::word::{Complete, Fixed, Load, Readout, Register, Word};
 
-/// Lines and columns that a hostile set of coefficients is scanned over.
+/// Lines and columns that a set of coefficients is scanned over.
 pub const RASTER: u32 = 4;
 
 /// Random words of a world.
 #[derive(Debug)]
-pub struct Hostile<W> {
+pub struct CornerCases<W> {
     world: W,
     seed: u64,
     drawn: u64,
@@ -30,7 +29,7 @@ fn range(fixed: Fixed) -> (i64, i64) {
     (i64::MIN >> (64 - fixed.width), i64::MAX >> (64 - fixed.width))
 }
 
-impl<W: Complete> Hostile<W> {
+impl<W: Complete> CornerCases<W> {
     /// A source of random words.
     pub fn new(world: W, seed: u64) -> Self {
         Self { world, seed, drawn: 0 }
@@ -98,14 +97,14 @@ impl<W: Complete> Hostile<W> {
     }
 
     /// Wires of so many pixels.
-    fn line(&self, pixels: u32) -> Line<W> {
+    fn idle(&self, pixels: u32) -> Line<W> {
         Line::new(&self.world, 0..pixels)
     }
 
     /// A projector of the same build with other coefficients.
     pub fn projector(&mut self, unit: &Projector<W>) -> Projector<W> {
         let mut other = unit.clone();
-        for (register, _) in accumulators(unit) {
+        for (register, _) in unit.accumulators() {
             let start = self.view(register, false);
             let per_line = self.view(register, false);
             let per_column = self.view(register, false);
@@ -120,18 +119,31 @@ impl<W: Complete> Hostile<W> {
         other
     }
 
+    /// Inputs of a unit of a set-up.
+    pub fn line(&mut self, setup: &Setup<W>, unit: &Description, pixels: u32) -> Line<W> {
+        let divider = setup.divider.as_ref();
+        match (&setup.back, unit.name, divider) {
+            (_, "divider", Some(unit)) => self.divider(unit, pixels),
+            (Back::Terrain(units), "stepper", _) => self.stepper(units, divider, pixels),
+            (Back::Terrain(units), "interpolator", _) => self.interpolator(units, pixels),
+            (Back::Terrain(units), "light" | "ramp", _) => self.surface(units, pixels),
+            (_, "mixer" | "pixel", _) => self.colors(pixels),
+            (Back::Plane(checker), "checker", _) => self.checker(checker, divider, pixels),
+            _ => unreachable!("corner cases of {} stand here", unit.name),
+        }
+    }
+
     /// Inputs of the divider: any numerators, any denominators, quotients at the ends of the
     /// range.
-    pub fn divider(&mut self, unit: &Divider<W>, pixels: u32) -> Line<W> {
-        let mut line = self.line(pixels);
+    fn divider(&mut self, unit: &Divider<W>, pixels: u32) -> Line<W> {
+        let mut line = self.idle(pixels);
         for at in 0..line.len() {
             let positive = self.below(8) > 0;
             line.denominator[at] = self.view(Register::Denominator, positive);
             line.view_x[at] = self.view(Register::ViewX, false);
             line.view_z[at] = self.view(Register::ViewZ, false);
             if positive && self.below(3) == 0 {
-                let shift = shift(&self.world, &unit.ratio_x, Register::ViewX, Register::GroundX);
-                let bits = unit.ratio_x.range + self.fixed(Register::GroundX).point;
+                let (shift, bits) = (unit.shifts[0], unit.bits[0] - 1);
                 if let Some(x) = self.at_the_end(line.denominator[at], shift, bits) {
                     line.view_x[at] = x;
                 }
@@ -203,13 +215,13 @@ impl<W: Complete> Hostile<W> {
 
     /// Inputs of the stepper: rays of any direction, from places on and around the map that a
     /// divider of this range can give.
-    pub fn stepper(
+    fn stepper(
         &mut self,
         units: &TerrainUnits<W>,
         divider: Option<&Divider<W>>,
         pixels: u32,
     ) -> Line<W> {
-        let mut line = self.line(pixels);
+        let mut line = self.idle(pixels);
         let range = divider.map_or(0, |divider| divider.ratio_x.range);
         let heights = &*units.interpolator.heights;
         let axes = [
@@ -239,14 +251,14 @@ impl<W: Complete> Hostile<W> {
                 };
                 self.ground(register, eye.saturating_add(away))
             });
-            (line.ground_x[at], line.ground_z[at]) = (x, z);
+            (line.entry_x[at], line.entry_z[at]) = (x, z);
         }
         line
     }
 
     /// Inputs of the interpolator: places where the surface exists.
-    pub fn interpolator(&mut self, units: &TerrainUnits<W>, pixels: u32) -> Line<W> {
-        let mut line = self.line(pixels);
+    fn interpolator(&mut self, units: &TerrainUnits<W>, pixels: u32) -> Line<W> {
+        let mut line = self.idle(pixels);
         let unit = &units.interpolator;
         for at in 0..line.len() {
             // A map may be made of holes: then there is no such place, and the pixel is sky.
@@ -277,18 +289,22 @@ impl<W: Complete> Hostile<W> {
         top.clamp(0, range(to).1.into()) as i64
     }
 
-    /// Inputs of the shader of height maps: heights from the lowest to the highest node, any
-    /// slopes.
-    pub fn shader(&mut self, units: &TerrainUnits<W>, pixels: u32) -> Line<W> {
-        let mut line = self.line(pixels);
+    /// An outcome, mostly a surface.
+    fn hit(&mut self) -> Hit {
+        match self.below(16) {
+            0 => Hit::Sky,
+            1 => Hit::Side,
+            2 => Hit::Far,
+            _ => Hit::Surface,
+        }
+    }
+
+    /// Inputs of light and ramp: any slopes, heights from the lowest to the highest node.
+    fn surface(&mut self, units: &TerrainUnits<W>, pixels: u32) -> Line<W> {
+        let mut line = self.idle(pixels);
         let highest = self.highest(units);
         for at in 0..line.len() {
-            line.hit[at] = match self.below(16) {
-                0 => Hit::Sky,
-                1 => Hit::Side,
-                2 => Hit::Far,
-                _ => Hit::Surface,
-            };
+            line.hit[at] = self.hit();
             let height = self.number(0, highest);
             line.surface[at] = self.height(Register::Surface, height);
             let (low, high) = range(self.fixed(Register::SlopeX));
@@ -299,15 +315,40 @@ impl<W: Complete> Hostile<W> {
         line
     }
 
-    /// Inputs of the shader of planes: any place that the divider can give, any denominator that
+    /// Inputs of the mixer and of the pixel: any colours, often a byte or half a level from one,
+    /// under any shade, often none or full.
+    fn colors(&mut self, pixels: u32) -> Line<W> {
+        let mut line = self.idle(pixels);
+        for at in 0..line.len() {
+            line.hit[at] = self.hit();
+            line.albedo[at] = std::array::from_fn(|_| self.tone(Register::Channel, 255));
+            line.lit[at] = std::array::from_fn(|_| self.tone(Register::Channel, 255));
+            line.shade[at] = self.tone(Register::Shade, 1);
+        }
+        line
+    }
+
+    /// A tone from zero to a whole number: anywhere, at the ends, at a multiple of a half or a bit
+    /// beside it.
+    fn tone(&mut self, register: Register, whole: i64) -> W::Tone {
+        let fixed = self.fixed(register);
+        let one = 1_i64 << fixed.point;
+        let most = whole.saturating_mul(one).min(range(fixed).1);
+        let bits = match self.below(4) {
+            0 => self.number(0, most),
+            1 => (one / 2).saturating_mul(self.within(0, 2 * whole)) + self.within(-1, 1),
+            2 => most,
+            _ => self.within(0, most),
+        };
+        let bits = bits.clamp(0, most);
+        let format = self.world.tone(register);
+        W::Tone::load_raw(bits, format).unwrap_or(W::Tone::zero(format))
+    }
+
+    /// Inputs of the checker: any place that the divider can give, any denominator that
     /// goes with it, often one where squares fade.
-    pub fn checker(
-        &mut self,
-        unit: &Checker<W>,
-        divider: Option<&Divider<W>>,
-        pixels: u32,
-    ) -> Line<W> {
-        let mut line = self.line(pixels);
+    fn checker(&mut self, unit: &Checker<W>, divider: Option<&Divider<W>>, pixels: u32) -> Line<W> {
+        let mut line = self.idle(pixels);
         let range = divider.map_or(0, |divider| divider.ratio_x.range);
         let eyes = divider.and_then(|divider| Some([divider.eye_x.raw()?, divider.eye_z.raw()?]));
         let [eye_x, eye_z] = eyes.unwrap_or_default();
@@ -334,8 +375,8 @@ impl<W: Complete> Hostile<W> {
                 let away = self.number(-reach, reach - 1);
                 self.ground(register, eye.saturating_add(away))
             };
-            line.ground_x[at] = place(Register::GroundX, eye_x);
-            line.ground_z[at] = place(Register::GroundZ, eye_z);
+            line.entry_x[at] = place(Register::GroundX, eye_x);
+            line.entry_z[at] = place(Register::GroundZ, eye_z);
         }
         line
     }

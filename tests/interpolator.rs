@@ -12,7 +12,7 @@ use terraline::frame::Hit;
 use terraline::plan::{Plan, WordClass};
 use terraline::scene::{Deformation, Kernel, KernelShape, Outside, Scene, WordSize};
 use terraline::setup::formats::sweep_of;
-use terraline::unit::Line;
+use terraline::unit::{Line, Unit as _};
 use terraline::unit::height_memory::{Edge, HeightMemory};
 use terraline::unit::interpolator::{Form, Interpolator};
 use terraline::unit::stepper::SurfaceUnit;

@@ -8,9 +8,10 @@ use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterio
 use terraline::engine::FixedWorld;
 use terraline::fast::enter;
 use terraline::plan::Plan;
+use terraline::plan::formats::Formats;
 use terraline::processor::Processor;
 use terraline::scene::Scene;
-use terraline::setup::{Back, Memory, Setup, formats};
+use terraline::setup::{Back, Memory, Setup};
 use terraline::unit::divider::Method;
 use terraline::word::Complete;
 use terraline::word::real::Real;
@@ -63,7 +64,8 @@ fn divider_benches(group: &mut BenchmarkGroup<'_, WallTime>, mut run: impl FnMut
 fn worlds(criterion: &mut Criterion) {
     for name in ["overview", "plane"] {
         let (scene, plan) = support::planned(name, COLUMNS, COLUMNS);
-        let sweep = formats::sweep(&scene, &plan).expect("the stock formats are formats");
+        let sweep =
+            Formats::stock(plan.words()).sweep(scene.seed).expect("the stock formats are formats");
         units(criterion, &format!("{name}/narrow"), Narrow, &scene, &plan);
         units(criterion, &format!("{name}/wide"), Wide, &scene, &plan);
         units(criterion, &format!("{name}/sweep"), sweep, &scene, &plan);

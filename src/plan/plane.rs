@@ -114,7 +114,13 @@ impl PlanePlan {
         let mut facts = format!("positions reach {place:.0} of {limit:.0} squares");
         let mut refusals = Vec::new();
         if place > limit {
-            refusals.push(self.too_far(shortest));
+            let mut refusal = self.too_far(shortest);
+            // A short register may be to blame, and not the eye.
+            if !formats.requests.is_empty() {
+                refusal.reason =
+                    format!("positions reach {place:.0} squares, the registers hold {limit:.0}");
+            }
+            refusals.push(refusal);
         }
         refusals.extend(formats.view_refusals(geometry, &[R::ViewX, R::ViewZ, R::Denominator]));
         if self.numerator != 0.0 {

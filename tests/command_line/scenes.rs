@@ -110,10 +110,14 @@ fn formats_draw_coarse_frames() {
     assert_eq!(fast, draw(&folder, "flight", "processor", &processor));
     let saturate = ["--format", "tone=10.4:nearest:saturate", "--engine", "processor"];
     draw(&folder, "flight", "saturated", &saturate);
-    for stock in ["height=12.20", "view_y=2.30"] {
-        assert_eq!(whole, draw(&folder, "flight", "stock", &["--format", stock]), "{stock}");
-    }
-    assert_ne!(whole, draw(&folder, "flight", "floor", &["--format", "height=12.20:floor"]));
+    let buffers = |more: &[&str]| {
+        draw(&folder, "flight", "buffers", &[&["--buffers", "all.npz"], more].concat());
+        folder.read("all.npz")
+    };
+    let stock = buffers(&[]);
+    assert!(stock == buffers(&["--format", "height=12.20"]), "the stock format is stock");
+    assert!(stock == buffers(&["--format", "view_y=2.30"]), "the stock format is stock");
+    assert!(stock != buffers(&["--format", "height=12.20:floor"]), "another rounding is not");
     let narrow = ["render", "flight", "--engine", "processor", "--format", "slope_x=4.4"];
     assert_eq!(folder.run(&narrow).status.code(), Some(2), "it follows another register");
 }

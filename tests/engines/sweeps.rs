@@ -216,11 +216,11 @@ fn the_plan_speaks_of_the_formats_in_use() {
     assert_eq!(told("overview", &[("ground", 12, 20), ("ray_y", 12, 20)]), (stock, nothing));
 
     // 8 bits for 20: a rounding 4096 times as large.
-    let coarse = "a step's rounding is 35.51 pixels";
+    let coarse = "a step's rounding is 35.76 pixels";
     let (why, open) = told("overview", &[("ground", 24, 8)]);
     assert!(why.starts_with("positions reach 1060 of 8388608 cells, heights"), "{why}");
     assert!(why.ends_with(coarse), "{why}");
-    let claim = "the rounding of a step is 35.51 pixel, more than 1/64 (ground_x Q24.8)";
+    let claim = "the rounding of a step is 35.76 pixel, more than 1/64 (ground_x Q24.8)";
     assert_eq!(open, [claim]);
     // The coarsest register counts, and one of the registers may be to blame.
     let (why, open) = told("overview", &[("ground", 12, 30), ("ground_z", 24, 8)]);
@@ -246,7 +246,11 @@ fn the_plan_speaks_of_the_formats_in_use() {
         ),
         ("overview", ("node", 5, 20), "heights with three bits to spare reach"),
         ("flight", ("node", 5, 20), "(node Q5.20)"),
-        ("plane", ("ground", 8, 20), "squares from the origin (ground_x Q8.20)"),
+        (
+            "plane",
+            ("ground", 8, 20),
+            "positions reach 1024 squares, the registers hold 128 (ground_x Q8.20)",
+        ),
         ("plane", ("ground_z", 12, 4), "(ground_z Q12.4)"),
         ("plane", ("denominator", 2, 12), "(denominator Q2.12)"),
     ] {

@@ -213,11 +213,7 @@ impl WalkPlan {
     /// What the machine counts in, whatever its formats: places to 2^24, steps below 2^26.
     fn check_counters(&self) -> Result<(), Refusal> {
         if self.extreme > LARGEST_PLACE {
-            return Err(self.too_far(
-                "positions",
-                self.extreme,
-                (Register::GroundX, LARGEST_PLACE),
-            ));
+            return Err(self.too_far(&positions(self.extreme), (Register::GroundX, LARGEST_PLACE)));
         }
         if self.needs.steps >= libm::exp2(26.0) {
             return Err(Refusal {
@@ -230,14 +226,14 @@ impl WalkPlan {
         Ok(())
     }
 
-    fn too_far(&self, what: &str, reached: f64, (register, limit): (Register, f64)) -> Refusal {
+    fn too_far(&self, reach: &str, (register, limit): (Register, f64)) -> Refusal {
         // Whatever is deepest under the highest node is to blame for a deep walk.
         let (field, remedy) = if self.needs.base_is_deep {
             ("surface.base_depth", "make it smaller")
         } else {
             ("camera.position", "move the eye closer to the map")
         };
-        let reason = format!("{what} reach {reached:.0} cells, the registers hold {limit:.0}");
+        let reason = format!("{reach}, the registers hold {limit:.0}");
         Refusal { field, reason, remedy, register }
     }
 
@@ -294,16 +290,17 @@ impl WalkPlan {
             (formats.shortest(&[R::GroundX, R::GroundZ]), formats.shortest(&[R::RayY]));
         let mut facts = if ground.1 == ray.1 {
             if self.extreme > ground.1 {
-                refusals.push(self.too_far("positions", self.extreme, ground));
+                let register = if needs.vertical > needs.horizontal { ray } else { ground };
+                refusals.push(self.too_far(&positions(self.extreme), register));
             }
             format!("positions reach {:.0} of {:.0} cells", self.extreme, ground.1)
         } else {
-            for (what, reached, limit) in
-                [("positions", needs.horizontal, ground), ("heights of rays", needs.vertical, ray)]
-            {
-                if reached > limit.1 {
-                    refusals.push(self.too_far(what, reached, limit));
-                }
+            if needs.horizontal > ground.1 {
+                refusals.push(self.too_far(&positions(needs.horizontal), ground));
+            }
+            if needs.vertical > ray.1 {
+                let heights = format!("heights of rays reach {:.0} units", needs.vertical);
+                refusals.push(self.too_far(&heights, ray));
             }
             format!(
                 "positions reach {:.0} of {:.0} cells, heights of rays {:.0} of {:.0}",
@@ -314,4 +311,8 @@ impl WalkPlan {
             &format!(", a step's rounding is {}", in_pixels(geometry.finest_angle / direction));
         Proof { facts, refusals }
     }
+}
+
+fn positions(reach: f64) -> String {
+    format!("positions reach {reach:.0} cells")
 }

@@ -133,7 +133,7 @@ impl Registers {
         Class::ALL.into_iter().map(Self::Class).chain(registers)
     }
 
-    /// The class or register of this name.
+    /// The class or else the register of this name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::all().find(|registers| registers.name() == name)
     }

@@ -196,7 +196,9 @@ fn names_are_told_apart_and_read_back() {
         assert_eq!(Overflow::from_name(overflow.name()), Some(overflow));
     }
     for registers in Registers::all() {
-        assert_eq!(Registers::from_name(registers.name()), Some(registers));
+        // `weight` is a class and its leader: the same registers.
+        let read = Registers::from_name(registers.name()).expect("a name");
+        assert!(Register::ALL.iter().all(|&r| read.contains(r) == registers.contains(r)));
     }
     assert_eq!((Rounding::from_name("up"), Overflow::from_name("")), (None, None));
     assert_eq!(Registers::from_name("View"), None);

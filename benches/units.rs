@@ -7,9 +7,10 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use terraline::engine::FixedWorld;
 use terraline::fast::enter;
 use terraline::plan::Plan;
+use terraline::plan::formats::Formats;
 use terraline::processor::Processor;
 use terraline::scene::Scene;
-use terraline::setup::{Memory, Setup, formats};
+use terraline::setup::{Memory, Setup};
 use terraline::unit::divider::Method;
 use terraline::word::Complete;
 use terraline::word::real::Real;
@@ -44,7 +45,8 @@ fn units<W: Complete>(criterion: &mut Criterion, name: &str, world: W, scene: &S
 fn worlds(criterion: &mut Criterion) {
     for name in ["overview", "plane"] {
         let (scene, plan) = support::planned(name, COLUMNS, COLUMNS);
-        let sweep = formats::sweep(&scene, &plan).expect("the stock formats are formats");
+        let sweep =
+            Formats::stock(plan.words()).sweep(scene.seed).expect("the stock formats are formats");
         units(criterion, &format!("{name}/narrow"), Narrow, &scene, &plan);
         units(criterion, &format!("{name}/wide"), Wide, &scene, &plan);
         units(criterion, &format!("{name}/sweep"), sweep, &scene, &plan);

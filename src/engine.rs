@@ -3,11 +3,11 @@
 use crate::fast::enter::Enterable;
 use crate::frame::Frame;
 use crate::oracle::Oracle;
-use crate::plan::Plan;
+use crate::plan::{Plan, formats};
 use crate::processor::{self, Processor};
 use crate::readout::FrameBuilder;
 use crate::scene::Scene;
-use crate::setup::{Memory, Setup, SetupError, formats};
+use crate::setup::{Memory, Setup, SetupError};
 use crate::unit::Line;
 use crate::word::real::Real;
 use crate::word::stock::{Narrow, Wide};
@@ -62,7 +62,7 @@ impl FixedWorld {
     /// The world that a plan and the scene's `[format]` ask for.
     ///
     /// # Errors
-    /// If `[format]` names a register that does not exist or cannot have its format.
+    /// If `[format]` gives a register a format that it cannot have.
     pub fn of(scene: &Scene, plan: &Plan) -> Result<Self, SetupError> {
         Ok(if !scene.formats.is_empty() {
             Self::Sweep(formats::sweep(scene, plan)?)

@@ -9,9 +9,9 @@ use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
 use scenes::{interpolator, kernels, terrain, terrain_scene, units};
 use terraline::frame::Hit;
+use terraline::plan::formats::Formats;
 use terraline::plan::{Plan, WordClass};
 use terraline::scene::{Deformation, Kernel, KernelShape, Outside, Scene, WordSize};
-use terraline::setup::formats::sweep_of;
 use terraline::unit::{Line, Unit as _};
 use terraline::unit::height_memory::{Edge, HeightMemory};
 use terraline::unit::interpolator::{Form, Interpolator};
@@ -62,17 +62,9 @@ fn site(number: u32) -> Site {
 
 /// A world of its stock formats but for the rounding.
 fn sweep(words: WordClass, rounding: Rounding) -> Sweep {
-    let stock = sweep_of(words, &[], 5).expect("stock formats");
+    let stock = Formats::stock(words).sweep(5).expect("stock formats");
     Sweep::new(|register| SweepFormat { rounding, ..stock.format(register) })
 }
-
-const ROUNDINGS: [Rounding; 5] = [
-    Rounding::Floor,
-    Rounding::TowardZero,
-    Rounding::Nearest,
-    Rounding::NearestEven,
-    Rounding::Stochastic,
-];
 
 /// Runs a check in every fixed world.
 macro_rules! in_every_world {
@@ -85,7 +77,7 @@ macro_rules! in_every_world {
             let ($world, $words) = (Wide, WordSize::Wide);
             $check;
         }
-        for rounding in ROUNDINGS {
+        for rounding in Rounding::ALL {
             let ($world, $words) = (sweep(WordClass::NARROW, rounding), WordSize::Narrow);
             $check;
         }

@@ -9,6 +9,7 @@ use terraline::scene::{
     Angles, Attitude, Deformation, Extent, FormatRequest, Halvings, KernelShape, NoData, Outside,
     Overflow, Rounding, Scene, SceneError, StepperMode, Surface, Terrain, WordSize, builtin, load,
 };
+use terraline::word::{Class, Register, Registers};
 
 mod support;
 
@@ -183,15 +184,22 @@ fn every_key_is_taken() {
     assert_eq!(scene.color.checker, [[4, 4, 4], [5, 5, 5]]);
     assert_eq!((scene.machine.clock_mhz, scene.machine.words), (0.5, WordSize::Wide));
     // In the order of the file, so that a register may refine its class.
-    let coarse =
-        FormatRequest { width: 62, point: 62, rounding: Rounding::Floor, overflow: Overflow::Wrap };
+    let coarse = FormatRequest {
+        width: 62,
+        point: 62,
+        rounding: Rounding::Nearest,
+        overflow: Overflow::Wrap,
+    };
     let fine = FormatRequest {
         width: 48,
         point: 30,
         rounding: Rounding::NearestEven,
         overflow: Overflow::Saturate,
     };
-    assert_eq!(scene.formats, [("view".to_owned(), coarse), ("ground_x".to_owned(), fine)]);
+    assert_eq!(
+        scene.formats,
+        [(Registers::Class(Class::View), coarse), (Registers::One(Register::GroundX), fine)]
+    );
 }
 
 #[test]

@@ -56,9 +56,6 @@ fn formats_and_paths_are_written() {
                 ground = { width = 30, point = 8, overflow = \"saturate\" }";
     let scene = read(text);
     assert_same(&scene, &read(&write::toml(&scene, "")));
-    // No register has this name, but that is found out later.
-    let scene = read("[format]\n\"a\\nb \\\"\" = { width = 40, point = 12 }");
-    assert_same(&scene, &read(&write::toml(&scene, "")));
 
     let mut scene = read("");
     if let Surface::Terrain(terrain) = &mut scene.surface {

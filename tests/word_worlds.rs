@@ -18,14 +18,6 @@ use proptest::prelude::*;
 use terraline::word::sweep::{SweepFormat, SweepWord};
 use terraline::word::{Load, Overflow, Register, Rounding, Site, Word};
 
-const ROUNDINGS: [Rounding; 5] = [
-    Rounding::Floor,
-    Rounding::TowardZero,
-    Rounding::Nearest,
-    Rounding::NearestEven,
-    Rounding::Stochastic,
-];
-
 fn format(width: u32, point: u32, rounding: Rounding, overflow: Overflow) -> SweepFormat {
     SweepFormat { width: width as u8, point: point as u8, rounding, overflow, seed: 7 }
 }

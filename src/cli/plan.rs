@@ -29,6 +29,7 @@ struct Planning {
     world: &'static str,
     words: &'static str,
     words_why: String,
+    not_proved: Vec<String>,
     screen: String,
     columns: u32,
     lines: u32,
@@ -64,7 +65,8 @@ impl PlanCommand {
         let planning = Planning {
             world: planned.world.name(),
             words: plan.words().name,
-            words_why: plan.words_why().to_owned(),
+            words_why: plan.words_why.clone(),
+            not_proved: plan.not_proved.clone(),
             screen: plan.screen.name.clone(),
             columns: plan.geometry.columns,
             lines: plan.geometry.lines,
@@ -84,6 +86,7 @@ fn text(scene: &str, planning: &Planning) -> String {
         "{scene}, screen {}, {}x{}, {} ({})",
         planning.screen, planning.columns, planning.lines, planning.world, planning.words_why
     )];
+    out.extend(report::not_proved(&planning.not_proved));
     if let Some(walk) = &planning.walk {
         out.push(format!(
             "rays start {}; last sample {}, reach {:.0} cells; heights in units of {} above {}",

@@ -68,3 +68,8 @@ pub fn while_waiting<T>(what: &str, work: impl FnOnce() -> T) -> T {
     bar.finish_and_clear();
     result
 }
+
+/// The line about what the formats in use do not hold, if there is anything.
+pub fn not_proved(claims: &[String]) -> Option<String> {
+    (!claims.is_empty()).then(|| format!("  not proved: {}", claims.join("; ")))
+}

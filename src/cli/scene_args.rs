@@ -9,7 +9,9 @@ use crate::engine::FixedWorld;
 use crate::plan::Plan;
 use crate::scene::overlook::{self, Overlook};
 use crate::scene::screen::{MAX_PIXELS, MAX_SIDE};
-use crate::scene::{self, FormatRequest, Overflow, Rounding, Scene, Surface, Terrain};
+use crate::scene::{
+    self, FormatRequest, Overflow, Registers, Rounding, Scene, Surface, Terrain, list, registers,
+};
 use crate::setup::SetupError;
 
 /// Scene and overrides.
@@ -32,7 +34,8 @@ pub struct SceneArgs {
     screen: Option<String>,
 
     /// A register or class in a format of its own (sweep world), for example `ground=24.8` or
-    /// `ground_x=12.16:stochastic:saturate`: bits before and after the point, rounding, overflow.
+    /// `ground_x=12.16:stochastic:saturate`: bits before and after the point, rounding, overflow
+    /// (as in stock registers, `nearest` and `wrap`, where they are left out).
     #[arg(long = "format", value_name = "NAME=I.F[:ROUNDING[:OVERFLOW]]")]
     format: Vec<String>,
 
@@ -199,15 +202,19 @@ pub fn parse_pixel(text: &str, plan: &Plan) -> Result<(u32, u32), Stop> {
 }
 
 /// `NAME=I.F[:ROUNDING[:OVERFLOW]]`.
-fn parse_format(text: &str) -> Result<(String, FormatRequest), Stop> {
+fn parse_format(text: &str) -> Result<(Registers, FormatRequest), Stop> {
     let bad = |reason: &str| {
         Stop::BadInput(format!(
-            "--format {text}: {reason}; for example ground=24.8 or ground=24.8:nearest:saturate \
-             (rounding floor, toward_zero, nearest, nearest_even or stochastic; overflow wrap or \
-             saturate)"
+            "--format {text}: {reason}; for example ground=24.8 or ground=24.8:floor:saturate \
+             (roundings: {}; overflows: {})",
+            list(Rounding::ALL.map(Rounding::name)),
+            list(Overflow::ALL.map(Overflow::name))
         ))
     };
     let (name, format) = text.split_once('=').ok_or_else(|| bad("no `=`"))?;
+    let registers = registers(name).map_err(|(reason, remedy)| {
+        Stop::BadInput(format!("--format {text}: {reason}; {remedy}"))
+    })?;
     let mut parts = format.split(':');
     let bits = parts.next().unwrap_or_default();
     let (integer, point) =
@@ -216,21 +223,16 @@ fn parse_format(text: &str) -> Result<(String, FormatRequest), Stop> {
     let (integer, point) = (number(integer)?, number(point)?);
     let width = integer.checked_add(point).filter(|width| (2..=62).contains(width));
     let width = width.ok_or_else(|| bad("a register has 2 to 62 bits in all"))?;
-    let rounding = match parts.next().unwrap_or("floor") {
-        "floor" => Rounding::Floor,
-        "toward_zero" => Rounding::TowardZero,
-        "nearest" => Rounding::Nearest,
-        "nearest_even" => Rounding::NearestEven,
-        "stochastic" => Rounding::Stochastic,
-        _ => return Err(bad("unknown rounding")),
+    let rounding = match parts.next() {
+        None => Rounding::default(),
+        Some(name) => Rounding::from_name(name).ok_or_else(|| bad("unknown rounding"))?,
     };
-    let overflow = match parts.next().unwrap_or("wrap") {
-        "wrap" => Overflow::Wrap,
-        "saturate" => Overflow::Saturate,
-        _ => return Err(bad("unknown overflow")),
+    let overflow = match parts.next() {
+        None => Overflow::default(),
+        Some(name) => Overflow::from_name(name).ok_or_else(|| bad("unknown overflow"))?,
     };
     if parts.next().is_some() {
         return Err(bad("too many parts"));
     }
-    Ok((name.to_owned(), FormatRequest { width, point, rounding, overflow }))
+    Ok((registers, FormatRequest { width, point, rounding, overflow }))
 }

@@ -3,19 +3,20 @@
 //! A plan is made from the scene alone, in `f64`, before anything is loaded; making it may fail,
 //! running it cannot. A pruned and a full machine give the same frame.
 
+pub mod formats;
 pub mod geometry;
+mod plane;
+mod proof;
 pub mod ranges;
 pub mod units;
 
-use glam::DVec3;
-
-use crate::scene::{
-    Deformation, KernelShape, Scene, Screen, StepperMode, Surface, Terrain, WordSize,
-};
+use crate::scene::{Deformation, KernelShape, Scene, Screen, StepperMode, Surface, Terrain};
 use crate::word::{Class, Fixed, Register};
 use geometry::Geometry;
+use proof::Finding;
 use ranges::WalkPlan;
 
+pub use plane::PlanePlan;
 pub use units::UnitPlan;
 
 /// Why a scene cannot be planned.
@@ -50,35 +51,14 @@ pub enum PlanError {
         /// What there is.
         known: String,
     },
-    /// An unknown register in `[format]`.
-    #[error(
-        "format.{name}: no register or class has this name; the nearest is {nearest}; \
-             classes: view, ground, height, weight, tone"
-    )]
-    UnknownRegister {
-        /// What was asked for.
-        name: String,
-        /// What is near.
-        nearest: String,
-    },
     /// A format that the machine cannot work with.
     #[error("format.{name}: {reason}")]
     Format {
-        /// Register.
-        name: String,
+        /// Register or class.
+        name: &'static str,
         /// What is wrong and what to do.
         reason: String,
     },
-}
-
-impl PlanError {
-    /// The reason alone, without field and remedy.
-    fn reason(&self) -> String {
-        match self {
-            Self::Range { reason, .. } => reason.clone(),
-            other => other.to_string(),
-        }
-    }
 }
 
 /// A word size of the stock world.
@@ -94,6 +74,10 @@ pub struct WordClass {
     pub ground_point: u32,
 }
 
+/// Largest magnitude of a place that the machine works with: products in wide words are formed
+/// from values of up to 2^24, and nothing needs more.
+const LARGEST_PLACE: f64 = 16_777_216.0;
+
 impl WordClass {
     /// 32 bits.
     pub const NARROW: Self = Self { name: "narrow", width: 32, view_point: 30, ground_point: 20 };
@@ -102,8 +86,7 @@ impl WordClass {
 
     /// Largest magnitude of a ground or height register that the plan allows.
     pub fn ground_limit(self) -> f64 {
-        // Products in wide words are formed from values of up to 2^24; nothing needs more.
-        libm::exp2(f64::from(self.width - 1 - self.ground_point).min(24.0))
+        self.fixed(Register::GroundX).limit().min(LARGEST_PLACE)
     }
 
     /// Format of a register.
@@ -123,27 +106,6 @@ pub enum Ground {
     Terrain(WalkPlan),
     /// A plane.
     Plane(PlanePlan),
-}
-
-/// Projection onto a plane.
-#[derive(Clone, Debug)]
-pub struct PlanePlan {
-    /// Word size.
-    pub words: WordClass,
-    /// Why.
-    pub words_why: String,
-    /// Unit normal.
-    pub normal: DVec3,
-    /// Side of a square, scene units.
-    pub checker: f64,
-    /// In-plane axes of the two coordinates (equation 11).
-    pub axes: [DVec3; 2],
-    /// The eye along them, in squares.
-    pub eye: [f64; 2],
-    /// `F = d − n·r_h`, scene units.
-    pub numerator: f64,
-    /// Quotients lie within ±2^range squares.
-    pub range: u32,
 }
 
 /// Which of the units that can be left out are fitted.
@@ -178,6 +140,11 @@ pub struct Plan {
     pub full: bool,
     /// What is fitted.
     pub fitted: Fitted,
+    /// Why these words, or how far the scene's own formats go.
+    pub words_why: String,
+    /// Ranges and roundings that the scene's own formats do not hold, a sentence each: drawn all
+    /// the same, with overflows counted. Empty in stock words, which are proved or refused.
+    pub not_proved: Vec<String>,
 }
 
 impl Plan {
@@ -195,15 +162,16 @@ impl Plan {
         }
         .clone();
         let geometry = Geometry::new(&scene.camera, &screen);
-        let (ground, needs) = match &scene.surface {
+        let (asked, formats) = (scene.machine.words, &scene.formats[..]);
+        let (ground, needs, finding) = match &scene.surface {
             Surface::Terrain(terrain) => {
-                let walk =
-                    WalkPlan::new(terrain, &geometry, scene.stepper.fineness, scene.machine.words)?;
+                let fineness = scene.stepper.fineness;
+                let (walk, finding) = WalkPlan::new(terrain, &geometry, fineness, asked, formats)?;
                 let needs = terrain_needs(scene, terrain, &walk);
-                (Ground::Terrain(walk), needs)
+                (Ground::Terrain(walk), needs, finding)
             }
-            Surface::Plane(_) => {
-                let plane = PlanePlan::new(scene, &geometry)?;
+            Surface::Plane(plane) => {
+                let (plane, finding) = PlanePlan::new(plane, &geometry, asked, formats)?;
                 let needs = Fitted {
                     divider: true,
                     pyramid: false,
@@ -213,7 +181,7 @@ impl Plan {
                     light: false,
                     idle: false,
                 };
-                (Ground::Plane(plane), needs)
+                (Ground::Plane(plane), needs, finding)
             }
         };
         let fitted = if full {
@@ -230,7 +198,8 @@ impl Plan {
         } else {
             needs
         };
-        Ok(Self { screen, geometry, ground, full, fitted })
+        let Finding { why: words_why, not_proved } = finding;
+        Ok(Self { screen, geometry, ground, full, fitted, words_why, not_proved })
     }
 
     /// The word size of the stock world that the plan chose.
@@ -238,14 +207,6 @@ impl Plan {
         match &self.ground {
             Ground::Terrain(walk) => walk.words,
             Ground::Plane(plane) => plane.words,
-        }
-    }
-
-    /// Why that word size.
-    pub fn words_why(&self) -> &str {
-        match &self.ground {
-            Ground::Terrain(walk) => &walk.words_why,
-            Ground::Plane(plane) => &plane.words_why,
         }
     }
 }
@@ -286,80 +247,4 @@ fn terrain_needs(scene: &Scene, terrain: &Terrain, walk: &WalkPlan) -> Fitted {
         light: scene.light.ambient < 1.0,
         idle: false,
     }
-}
-
-impl PlanePlan {
-    fn new(scene: &Scene, geometry: &Geometry) -> Result<Self, PlanError> {
-        let Surface::Plane(plane) = &scene.surface else { unreachable!("called for planes only") };
-        let axes = plane_axes(plane.normal);
-        let eye = axes.map(|axis| axis.dot(geometry.eye) / plane.checker);
-        let farthest = eye[0].abs().max(eye[1].abs());
-        let numerator = plane.distance - plane.normal.dot(geometry.eye);
-        let drift = f64::from(geometry.columns) + f64::from(geometry.lines);
-        // `coarsest`: the last bit of a position in pixels of the nearest point.
-        let fits = |words: WordClass, coarsest: f64| -> Result<u32, PlanError> {
-            let ulp = |point: u32| libm::exp2(-f64::from(point));
-            // Positions hold the eye and the quotient.
-            let limit = words.ground_limit();
-            let range = libm::log2(limit) as u32 - 1;
-            if farthest + libm::exp2(f64::from(range)) > limit {
-                return Err(PlanError::Range {
-                    field: "camera.position",
-                    reason: format!("the eye is {farthest:.0} squares from the origin"),
-                    remedy: "move it closer, or enlarge surface.checker",
-                });
-            }
-            if drift * ulp(words.view_point + 1) > geometry.finest_angle / 128.0 {
-                return Err(PlanError::Range {
-                    field: "screen.size",
-                    reason: "the roundings of the view coefficients add up to more than 1/128 \
-                             pixel"
-                        .into(),
-                    remedy: "draw fewer or coarser pixels",
-                });
-            }
-            // The nearest point of the plane is |F| away: a pixel is at least so large there.
-            let pixel = numerator.abs() * geometry.finest_angle / plane.checker;
-            if numerator != 0.0 && ulp(words.ground_point) > pixel * coarsest {
-                return Err(PlanError::Range {
-                    field: "camera.position",
-                    reason: format!(
-                        "the eye is {:e} above the plane, where the last bit of a position is \
-                         {:.2} pixel",
-                        numerator.abs(),
-                        ulp(words.ground_point) / pixel
-                    ),
-                    remedy: "move it away from the plane, or make surface.checker smaller",
-                });
-            }
-            Ok(range)
-        };
-        let (words, range, words_why) = match scene.machine.words {
-            WordSize::Narrow => (
-                WordClass::NARROW,
-                fits(WordClass::NARROW, 0.5)?,
-                "asked for, and proved".to_owned(),
-            ),
-            WordSize::Wide => {
-                (WordClass::WIDE, fits(WordClass::WIDE, 0.5)?, "asked for".to_owned())
-            }
-            WordSize::Auto => match fits(WordClass::NARROW, 1.0 / 64.0) {
-                Ok(range) => (WordClass::NARROW, range, "positions and pixels fit".to_owned()),
-                Err(refusal) => {
-                    let why = format!("32 bits do not do: {}", refusal.reason());
-                    (WordClass::WIDE, fits(WordClass::WIDE, 0.5)?, why)
-                }
-            },
-        };
-        let (normal, checker) = (plane.normal, plane.checker);
-        Ok(Self { words, words_why, normal, checker, axes, eye, numerator, range })
-    }
-}
-
-/// In-plane axes (equation 11): along n × z (n × x where n is nearly z), and across it; x and z
-/// for a floor.
-pub(crate) fn plane_axes(normal: DVec3) -> [DVec3; 2] {
-    let across = if normal.z.abs() < 0.9 { DVec3::Z } else { DVec3::X };
-    let first = normal.cross(across).normalize();
-    [first, first.cross(normal)]
 }

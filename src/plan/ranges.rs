@@ -4,9 +4,12 @@
 
 use glam::DVec3;
 
+use super::formats::Formats;
 use super::geometry::Geometry;
-use super::{PlanError, WordClass};
-use crate::scene::{Outside, Terrain, WordSize};
+use super::proof::{Finding, Proof, Refusal, in_pixels};
+use super::{LARGEST_PLACE, PlanError, WordClass};
+use crate::scene::{FormatRequest, Outside, Registers, Terrain, WordSize};
+use crate::word::Register;
 
 /// Heights are loaded as `(y − datum) / unit`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,10 +35,8 @@ impl HeightScale {
 /// The walk of a ray over the map.
 #[derive(Clone, Debug)]
 pub struct WalkPlan {
-    /// Word size that holds it.
+    /// Word size of its stock registers.
     pub words: WordClass,
-    /// Why that one.
-    pub words_why: String,
     /// How heights are loaded.
     pub scale: HeightScale,
     /// Scene units per cell and height unit: x, y, z.
@@ -58,20 +59,26 @@ pub struct WalkPlan {
     pub extreme: f64,
     /// Halvings at distance one.
     pub halving_bias: i32,
+    needs: Needs,
 }
 
-/// Why a word size does not hold a walk.
-#[derive(Debug)]
-struct Refusal {
-    field: &'static str,
-    reason: String,
-    remedy: &'static str,
-}
-
-impl From<Refusal> for PlanError {
-    fn from(Refusal { field, reason, remedy }: Refusal) -> Self {
-        Self::Range { field, reason, remedy }
-    }
+/// What the registers of a walk must hold, whatever their formats.
+#[derive(Clone, Debug)]
+struct Needs {
+    /// Steps are between 2^-fineness-1 and 2^-fineness in their largest component.
+    fineness: u32,
+    /// Largest magnitude of x and z.
+    horizontal: f64,
+    /// Largest magnitude of a ray's height.
+    vertical: f64,
+    /// The relief with three bits to spare, for differences and slopes per cell.
+    heights: f64,
+    /// Largest factor or slope on cells that are not squares of the height unit.
+    steepest: f64,
+    /// The base of the map is to blame for a walk too long.
+    base_is_deep: bool,
+    /// Steps of the longest walk.
+    steps: f64,
 }
 
 /// Eyes less than this above the highest node start their rays at the eye: the ratio of so thin a
@@ -79,83 +86,67 @@ impl From<Refusal> for PlanError {
 const THIN_LAYER: f64 = 1.0 / 256.0;
 
 impl WalkPlan {
-    /// Proves a walk, in the smaller word size that holds it.
+    /// Proves a walk in the smaller word size that holds it, or says what is not proved of the
+    /// scene's own formats. These do not change the walk: it is that of the stock words.
     ///
     /// # Errors
     /// If no word size holds it, or the one asked for does not.
-    pub fn new(
+    pub(super) fn new(
         terrain: &Terrain,
         geometry: &Geometry,
         fineness: u32,
         asked: WordSize,
-    ) -> Result<Self, PlanError> {
-        let narrow = Self::in_words(terrain, geometry, fineness, WordClass::NARROW);
-        let wide = || Self::in_words(terrain, geometry, fineness, WordClass::WIDE);
-        match (asked, narrow) {
-            (WordSize::Narrow, Err(refusal)) => Err(PlanError::Range {
-                field: "machine.words",
-                reason: format!("32-bit words cannot be proved: {}", refusal.reason),
-                remedy: "use words = \"auto\"",
-            }),
-            (WordSize::Narrow, Ok(plan)) => {
-                Ok(Self { words_why: "asked for, and proved".into(), ..plan })
-            }
-            (WordSize::Wide, _) => Ok(Self { words_why: "asked for".into(), ..wide()? }),
-            (WordSize::Auto, Ok(plan)) => Ok(plan),
-            (WordSize::Auto, Err(refusal)) => {
-                Ok(Self { words_why: format!("32 bits do not do: {}", refusal.reason), ..wide()? })
-            }
+        requests: &[(Registers, FormatRequest)],
+    ) -> Result<(Self, Finding), PlanError> {
+        let of = |words| Self::in_words(terrain, geometry, fineness, words);
+        let stock = |words| -> Result<(Self, String), Refusal> {
+            let walk = of(words);
+            let facts = walk.proof(geometry, &Formats::stock(words)).holds()?;
+            walk.check_counters()?;
+            Ok((walk, facts))
+        };
+        if !requests.is_empty() {
+            let narrow = match asked {
+                WordSize::Narrow => true,
+                WordSize::Wide => false,
+                WordSize::Auto => stock(WordClass::NARROW).is_ok(),
+            };
+            let walk = of(if narrow { WordClass::NARROW } else { WordClass::WIDE });
+            walk.check_counters()?;
+            let formats = Formats { words: walk.words, requests };
+            let finding = walk.proof(geometry, &formats).told(&formats);
+            return Ok((walk, finding));
         }
+        let (walk, why) = match (asked, stock(WordClass::NARROW)) {
+            (WordSize::Narrow, Err(refusal)) => {
+                return Err(PlanError::Range {
+                    field: "machine.words",
+                    reason: format!("32-bit words cannot be proved: {}", refusal.reason),
+                    remedy: "use words = \"auto\"",
+                });
+            }
+            (WordSize::Narrow, Ok((walk, _))) => (walk, "asked for, and proved".to_owned()),
+            (WordSize::Wide, _) => (stock(WordClass::WIDE)?.0, "asked for".to_owned()),
+            (WordSize::Auto, Ok(found)) => found,
+            (WordSize::Auto, Err(refusal)) => {
+                let why = format!("32 bits do not do: {}", refusal.reason);
+                (stock(WordClass::WIDE)?.0, why)
+            }
+        };
+        Ok((walk, Finding::proved(why)))
     }
 
-    fn in_words(
-        terrain: &Terrain,
-        geometry: &Geometry,
-        fineness: u32,
-        words: WordClass,
-    ) -> Result<Self, Refusal> {
-        let limit = words.ground_limit();
+    /// The walk as a word size leads to it, proved or not.
+    fn in_words(terrain: &Terrain, geometry: &Geometry, fineness: u32, words: WordClass) -> Self {
         let (lowest, highest) = terrain.range();
         let nodes = [terrain.map.columns() as f64, terrain.map.rows() as f64];
         let eye_x = geometry.eye.x / terrain.cell.x;
         let eye_z = geometry.eye.z / terrain.cell.y;
 
-        // A direction is one rounding per step away from the view vector's.
-        let direction = libm::exp2(f64::from(fineness) - f64::from(words.ground_point));
-        if direction > geometry.finest_angle / 64.0 {
-            return Err(Refusal {
-                field: "screen.fov",
-                reason: format!(
-                    "the rounding of a step is {:.2} pixel, more than 1/64",
-                    direction / geometry.finest_angle
-                ),
-                remedy: "give the screen coarser pixels, or bring it nearer to its axis",
-            });
-        }
-        let coefficients = f64::from(geometry.columns) + f64::from(geometry.lines);
-        let drift = coefficients * libm::exp2(-1.0 - f64::from(words.view_point));
-        if drift > geometry.finest_angle / 128.0 {
-            return Err(Refusal {
-                field: "screen.size",
-                reason: "the roundings of the view coefficients add up to more than 1/128 pixel"
-                    .into(),
-                remedy: "draw fewer or coarser pixels",
-            });
-        }
-
         let mut unit = (terrain.cell.x * terrain.cell.y).sqrt();
         // The relief and its slopes (kernel slopes are at most 2) need room in the height words.
-        while (highest - lowest) / unit * 8.0 > limit {
+        while (highest - lowest) / unit * 8.0 > words.ground_limit() {
             unit *= 2.0;
-        }
-        let narrowest = terrain.cell.min_element();
-        let steepest = ((highest - lowest) * 2.25).max(unit) / narrowest;
-        if steepest > limit {
-            return Err(Refusal {
-                field: "surface.height.scale",
-                reason: format!("slopes reach {steepest:.0}, the registers hold {limit:.0}"),
-                remedy: "lower it, or enlarge surface.cell",
-            });
         }
         let scale = HeightScale { datum: lowest, unit };
         let lengths = DVec3::new(terrain.cell.x, unit, terrain.cell.y);
@@ -181,56 +172,147 @@ impl WalkPlan {
         };
         let walk = reach.max(deep).ceil();
         // Steps are between 2^-k-1 and 2^-k in their largest component.
-        let last = walk * libm::exp2(f64::from(fineness) + 1.0);
+        let steps = walk * libm::exp2(f64::from(fineness) + 1.0);
         let range = libm::log2(reach).ceil().max(0.0) as u32;
         let quotient = libm::exp2(f64::from(range));
+        let eye = eye_x.abs().max(eye_z.abs());
         let extent = match terrain.outside {
-            Outside::Sky => nodes[0].max(nodes[1]).max(eye_x.abs()).max(eye_z.abs()),
-            Outside::Clamp | Outside::Wrap => eye_x.abs().max(eye_z.abs()) + quotient,
+            Outside::Sky => nodes[0].max(nodes[1]).max(eye),
+            Outside::Clamp | Outside::Wrap => eye + quotient,
         };
-        let extreme = (extent + 2.0 * walk)
-            .max(eye_x.abs().max(eye_z.abs()) + quotient)
-            .max(start_y.abs().max(base.abs()).max(eye_y.abs()) + 2.0 * walk)
-            + 2.0;
-        if extreme > limit {
-            // Whatever is deepest under the highest node is to blame for a deep walk.
-            let (field, remedy) = if deep > reach && -base > eye_y.abs() {
-                ("surface.base_depth", "make it smaller")
-            } else {
-                ("camera.position", "move the eye closer to the map")
-            };
-            let reason =
-                format!("positions reach {extreme:.0} cells, the registers hold {limit:.0}");
-            return Err(Refusal { field, reason, remedy });
-        }
-        if last >= libm::exp2(26.0) {
-            return Err(Refusal {
-                field: "camera.position",
-                reason: format!("a ray would take {last:.0} steps, 2^26 are counted"),
-                remedy: "move the eye closer to the map",
-            });
-        }
+        let horizontal = (extent + 2.0 * walk).max(eye + quotient) + 2.0;
+        let vertical = start_y.abs().max(base.abs()).max(eye_y.abs()) + 2.0 * walk + 2.0;
         // Step and distance lie along one ray, so their largest components are in the ratio of
         // their lengths: 2^-k · 2^-n <= 2^e · finest_angle / 32 (equation 22).
         let halving_bias = libm::log2(32.0 / geometry.finest_angle).ceil() as i32 - fineness as i32;
-        Ok(Self {
+        Self {
             words,
-            words_why: format!(
-                "positions reach {extreme:.0} of {limit:.0} cells, a step's \
-                 rounding is 1/{:.0} pixel",
-                geometry.finest_angle / direction
-            ),
             scale,
             lengths,
             eye: DVec3::new(eye_x, eye_y, eye_z),
             top,
             base,
             from_eye,
-            last: last as u32,
+            last: steps as u32,
             reach,
             range,
-            extreme,
+            extreme: horizontal.max(vertical),
             halving_bias,
-        })
+            needs: Needs {
+                fineness,
+                horizontal,
+                vertical,
+                heights: (highest - lowest) / unit * 8.0,
+                steepest: ((highest - lowest) * 2.25).max(unit) / terrain.cell.min_element(),
+                base_is_deep: deep > reach && -base > eye_y.abs(),
+                steps,
+            },
+        }
     }
+
+    /// What the machine counts in, whatever its formats: places to 2^24, steps below 2^26.
+    fn check_counters(&self) -> Result<(), Refusal> {
+        if self.extreme > LARGEST_PLACE {
+            return Err(self.too_far(&positions(self.extreme), (Register::GroundX, LARGEST_PLACE)));
+        }
+        if self.needs.steps >= libm::exp2(26.0) {
+            return Err(Refusal {
+                field: "camera.position",
+                reason: format!("a ray would take {:.0} steps, 2^26 are counted", self.needs.steps),
+                remedy: "move the eye closer to the map",
+                register: Register::GroundX,
+            });
+        }
+        Ok(())
+    }
+
+    fn too_far(&self, reach: &str, (register, limit): (Register, f64)) -> Refusal {
+        // Whatever is deepest under the highest node is to blame for a deep walk.
+        let (field, remedy) = if self.needs.base_is_deep {
+            ("surface.base_depth", "make it smaller")
+        } else {
+            ("camera.position", "move the eye closer to the map")
+        };
+        let reason = format!("{reach}, the registers hold {limit:.0}");
+        Refusal { field, reason, remedy, register }
+    }
+
+    /// Ranges and roundings of the walk in registers of these formats.
+    fn proof(&self, geometry: &Geometry, formats: &Formats<'_>) -> Proof {
+        use Register as R;
+        let needs = &self.needs;
+        let mut refusals = Vec::new();
+
+        // A direction is one rounding per step away from the view vector's.
+        let coarsest = formats.coarsest(&[R::GroundX, R::GroundZ, R::RayY]);
+        let direction = libm::exp2(f64::from(needs.fineness)) * formats.fixed(coarsest).ulp();
+        if direction > geometry.finest_angle / 64.0 {
+            refusals.push(Refusal {
+                field: "screen.fov",
+                reason: format!(
+                    "the rounding of a step is {:.2} pixel, more than 1/64",
+                    direction / geometry.finest_angle
+                ),
+                remedy: "give the screen coarser pixels, or bring it nearer to its axis",
+                register: coarsest,
+            });
+        }
+        let view = [R::ViewX, R::ViewY, R::ViewZ, R::Denominator];
+        // Rays that start at the eye use no denominator.
+        let used = if self.from_eye { &view[..3] } else { &view[..] };
+        refusals.extend(formats.view_refusals(geometry, used));
+
+        let (node, limit) = formats.shortest(&[R::Node]);
+        if needs.heights > limit {
+            refusals.push(Refusal {
+                field: "format",
+                reason: format!(
+                    "heights with three bits to spare reach {:.0}, the registers hold {limit:.0}",
+                    needs.heights
+                ),
+                remedy: "give more bits before the point",
+                register: node,
+            });
+        }
+        if needs.steepest > limit {
+            refusals.push(Refusal {
+                field: "surface.height.scale",
+                reason: format!(
+                    "slopes reach {:.0}, the registers hold {limit:.0}",
+                    needs.steepest
+                ),
+                remedy: "lower it, or enlarge surface.cell",
+                register: node,
+            });
+        }
+
+        let (ground, ray) =
+            (formats.shortest(&[R::GroundX, R::GroundZ]), formats.shortest(&[R::RayY]));
+        let mut facts = if ground.1 == ray.1 {
+            if self.extreme > ground.1 {
+                let register = if needs.vertical > needs.horizontal { ray } else { ground };
+                refusals.push(self.too_far(&positions(self.extreme), register));
+            }
+            format!("positions reach {:.0} of {:.0} cells", self.extreme, ground.1)
+        } else {
+            if needs.horizontal > ground.1 {
+                refusals.push(self.too_far(&positions(needs.horizontal), ground));
+            }
+            if needs.vertical > ray.1 {
+                let heights = format!("heights of rays reach {:.0} units", needs.vertical);
+                refusals.push(self.too_far(&heights, ray));
+            }
+            format!(
+                "positions reach {:.0} of {:.0} cells, heights of rays {:.0} of {:.0}",
+                needs.horizontal, ground.1, needs.vertical, ray.1
+            )
+        };
+        facts +=
+            &format!(", a step's rounding is {}", in_pixels(geometry.finest_angle / direction));
+        Proof { facts, refusals }
+    }
+}
+
+fn positions(reach: f64) -> String {
+    format!("positions reach {reach:.0} cells")
 }

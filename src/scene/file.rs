@@ -15,7 +15,8 @@ use super::height_map::{file_reason, one_line, read_limited, shown_path};
 use super::tree::Node;
 use super::{
     Colors, Deformation, FormatRequest, Halvings, Kernel, KernelShape, Light, Machine, Overflow,
-    RatioForm, Rounding, Scene, Stepper, StepperMode, WordSize, camera, keys, screen, set, surface,
+    RatioForm, Registers, Rounding, Scene, Stepper, StepperMode, WordSize, camera, format, keys,
+    screen, set, surface,
 };
 
 /// A scene file is a few hundred bytes; what is much larger was given by mistake.
@@ -239,15 +240,18 @@ fn machine(table: &Fields<'_>) -> Result<Machine, SceneError> {
     })
 }
 
-/// The names are checked where the registers are known.
-fn formats(scene: &Fields<'_>) -> Result<Vec<(String, FormatRequest)>, SceneError> {
+fn formats(scene: &Fields<'_>) -> Result<Vec<(Registers, FormatRequest)>, SceneError> {
     let Some(field) = scene.get("format") else {
         return Ok(Vec::new());
     };
     field
         .open()?
         .all()
-        .map(|(name, format)| Ok((name.to_owned(), format_request(&format)?)))
+        .map(|(name, request)| {
+            let registers = format::registers(name)
+                .map_err(|(reason, remedy)| request.error(reason, remedy))?;
+            Ok((registers, format_request(&request)?))
+        })
         .collect()
 }
 
@@ -264,17 +268,11 @@ fn format_request(field: &Field<'_>) -> Result<FormatRequest, SceneError> {
     };
     let width = required("width", 2..=62)?;
     let point = required("point", 0..=width)?;
-    let rounding = table.read("rounding", Rounding::Floor, |rounding| {
-        rounding.choice(&[
-            ("floor", Rounding::Floor),
-            ("toward_zero", Rounding::TowardZero),
-            ("nearest", Rounding::Nearest),
-            ("nearest_even", Rounding::NearestEven),
-            ("stochastic", Rounding::Stochastic),
-        ])
+    let rounding = table.read("rounding", Rounding::default(), |rounding| {
+        rounding.choice(&Rounding::ALL.map(|rounding| (rounding.name(), rounding)))
     })?;
-    let overflow = table.read("overflow", Overflow::Wrap, |overflow| {
-        overflow.choice(&[("wrap", Overflow::Wrap), ("saturate", Overflow::Saturate)])
+    let overflow = table.read("overflow", Overflow::default(), |overflow| {
+        overflow.choice(&Overflow::ALL.map(|overflow| (overflow.name(), overflow)))
     })?;
     Ok(FormatRequest { width, point, rounding, overflow })
 }

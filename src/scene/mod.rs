@@ -11,7 +11,7 @@
 //!            z south                     +------ w right
 //! ```
 //!
-//! Nothing in this module knows about registers or engines. A [`Scene`] that exists is complete
+//! Nothing in this module knows more of registers than their names, or anything of engines. A [`Scene`] that exists is complete
 //! and finite: every value has been checked by the reader in [`mod@file`].
 
 mod array;
@@ -20,6 +20,7 @@ mod camera;
 pub mod error;
 mod field;
 pub mod file;
+mod format;
 mod fractal;
 pub mod height_map;
 mod keys;
@@ -35,11 +36,13 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-pub use crate::word::{Overflow, Rounding};
+pub use crate::word::{Overflow, Registers, Rounding};
 pub use builtin::load;
 pub use error::SceneError;
+pub(crate) use error::list;
+pub use format::FormatRequest;
+pub(crate) use format::registers;
 pub use height_map::{Encoding, HeightFile, HeightMap};
-pub(crate) use tree::shorten;
 
 /// A complete scene: camera, screens, one surface, and the machine that draws it.
 #[derive(Clone, Debug)]
@@ -67,7 +70,7 @@ pub struct Scene {
     /// Clock and memory of the emulated machine.
     pub machine: Machine,
     /// Overrides of the stock register formats: class or register name, format. Sweep world only.
-    pub formats: Vec<(String, FormatRequest)>,
+    pub formats: Vec<(Registers, FormatRequest)>,
 }
 
 /// The craft: position `r_0`, offset `h` of the centre of projection, attitude.
@@ -385,17 +388,4 @@ pub enum WordSize {
     Narrow,
     /// 64 bits: 24 after the point on the ground, 38 in the view.
     Wide,
-}
-
-/// A register format asked for in `[format]` or by `--format`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FormatRequest {
-    /// Bits in all, sign included, 2..=62.
-    pub width: u32,
-    /// Bits after the point, 0..=width.
-    pub point: u32,
-    /// What happens to bits that do not fit below.
-    pub rounding: Rounding,
-    /// What happens to values that do not fit above.
-    pub overflow: Overflow,
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::{
     Angles, Attitude, Deformation, Extent, FormatRequest, Halvings, KernelShape, NoData, Outside,
-    Overflow, RatioForm, Rounding, Scene, Screen, StepperMode, Surface, WordSize,
+    RatioForm, Scene, Screen, StepperMode, Surface, WordSize,
 };
 
 /// The scene file of a scene. `map` is written as the path of its height map, if it has one that
@@ -77,10 +77,10 @@ pub fn toml(scene: &Scene, map: &str) -> String {
 
     if !scene.formats.is_empty() {
         out.table("format");
-        for (index, (name, request)) in scene.formats.iter().enumerate() {
+        for (index, (registers, request)) in scene.formats.iter().enumerate() {
             // Of several requests for one register the last one counts, as in the program.
-            if !scene.formats[index + 1..].iter().any(|(later, _)| later == name) {
-                out.key(&toml_edit::Key::new(name).to_string(), format(request));
+            if !scene.formats[index + 1..].iter().any(|(later, _)| later == registers) {
+                out.key(registers.name(), format(request));
             }
         }
     }
@@ -189,20 +189,12 @@ impl KernelShape {
 }
 
 fn format(request: &FormatRequest) -> String {
-    let rounding = match request.rounding {
-        Rounding::Floor => "floor",
-        Rounding::TowardZero => "toward_zero",
-        Rounding::Nearest => "nearest",
-        Rounding::NearestEven => "nearest_even",
-        Rounding::Stochastic => "stochastic",
-    };
-    let overflow = match request.overflow {
-        Overflow::Wrap => "wrap",
-        Overflow::Saturate => "saturate",
-    };
     format!(
-        "{{ width = {}, point = {}, rounding = \"{rounding}\", overflow = \"{overflow}\" }}",
-        request.width, request.point
+        "{{ width = {}, point = {}, rounding = \"{}\", overflow = \"{}\" }}",
+        request.width,
+        request.point,
+        request.rounding.name(),
+        request.overflow.name()
     )
 }
 

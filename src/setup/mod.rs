@@ -3,7 +3,6 @@
 
 pub mod cells;
 pub mod coefficients;
-pub mod formats;
 pub mod kernel;
 pub mod maxima;
 pub mod memory;

@@ -3,7 +3,6 @@
 
 use std::fmt::Write as _;
 
-use super::formats::follows;
 use crate::plan::WordClass;
 use crate::unit::divider::ENDS as DIVIDER_ENDS;
 use crate::unit::interpolator::{LERP_LATENCY, SLOPE_LATENCY};
@@ -110,7 +109,7 @@ pub fn markdown() -> String {
             e.measure,
             WordClass::NARROW.fixed(register),
             WordClass::WIDE.fixed(register),
-            follows(register).map_or_else(String::new, |leader| format!("`{leader}`")),
+            register.follows().map_or_else(String::new, |leader| format!("`{leader}`")),
             e.equations,
             e.bound
         );

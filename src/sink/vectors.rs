@@ -121,31 +121,14 @@ impl Vectors<'_> {
             let rule = match self.world {
                 FixedWorld::Sweep(sweep) => {
                     let format = sweep.format(register);
-                    format!("{} {}", rounding(format.rounding), overflow(format.overflow))
+                    format!("{} {}", format.rounding.name(), format.overflow.name())
                 }
-                _ => "nearest wrap".into(),
+                _ => format!("{} {}", Rounding::default().name(), Overflow::default().name()),
             };
             let equations = table::entry(register).equations;
             format!("format {register} {word} {rule} equations {equations}")
         };
         registers.iter().map(line).collect()
-    }
-}
-
-fn rounding(rounding: Rounding) -> &'static str {
-    match rounding {
-        Rounding::Floor => "floor",
-        Rounding::TowardZero => "toward_zero",
-        Rounding::Nearest => "nearest",
-        Rounding::NearestEven => "nearest_even",
-        Rounding::Stochastic => "stochastic",
-    }
-}
-
-fn overflow(overflow: Overflow) -> &'static str {
-    match overflow {
-        Overflow::Wrap => "wrap",
-        Overflow::Saturate => "saturate",
     }
 }
 

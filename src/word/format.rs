@@ -1,13 +1,15 @@
 //! Fixed-point formats with their rounding and overflow, on plain integers.
 
-/// Rounding of a fixed-point result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+/// Rounding of a fixed-point result; by default that of stock registers. Where the algorithm fixes
+/// a rounding (quotients are floored, steps of a ray go to nearest) the format's does not matter.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Rounding {
     /// Toward minus infinity: bits are dropped.
     Floor,
     /// Toward zero.
     TowardZero,
     /// To nearest, ties upward.
+    #[default]
     Nearest,
     /// To nearest, ties to even.
     NearestEven,
@@ -16,10 +18,11 @@ pub enum Rounding {
     Stochastic,
 }
 
-/// Overflow of a fixed-point result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+/// Overflow of a fixed-point result; by default that of stock registers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Overflow {
     /// Modulo 2^width.
+    #[default]
     Wrap,
     /// To the nearest end of the range.
     Saturate,
@@ -53,7 +56,45 @@ impl std::fmt::Display for Fixed {
     }
 }
 
+impl Overflow {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Wrap, Self::Saturate];
+
+    /// Name in scene files, options and headers of test vectors.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Wrap => "wrap",
+            Self::Saturate => "saturate",
+        }
+    }
+
+    /// The overflow of this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|overflow| overflow.name() == name)
+    }
+}
+
 impl Rounding {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::Floor, Self::TowardZero, Self::Nearest, Self::NearestEven, Self::Stochastic];
+
+    /// Name in scene files, options and headers of test vectors.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Floor => "floor",
+            Self::TowardZero => "toward_zero",
+            Self::Nearest => "nearest",
+            Self::NearestEven => "nearest_even",
+            Self::Stochastic => "stochastic",
+        }
+    }
+
+    /// The rounding of this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|rounding| rounding.name() == name)
+    }
+
     /// `value / 2^places`, rounded; `random` supplies the bits of stochastic rounding.
     pub fn shift_right(self, value: i128, places: u32, random: impl FnOnce() -> u64) -> i128 {
         if places == 0 {

@@ -37,7 +37,7 @@ use std::fmt::Debug;
 use std::ops::{Add, Neg, Sub};
 
 pub use format::{Fixed, Overflow, Rounding};
-pub use register::{Class, Register};
+pub use register::{Class, Register, Registers};
 
 /// What a register holds: a value with additions, comparisons and shifts, and nothing else.
 pub trait Word:

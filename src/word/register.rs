@@ -16,6 +16,9 @@ pub enum Class {
 }
 
 impl Class {
+    /// All classes in the order of the data flow.
+    pub const ALL: [Self; 5] = [Self::View, Self::Ground, Self::Height, Self::Weight, Self::Tone];
+
     /// Name in scene files.
     pub fn name(self) -> &'static str {
         match self {
@@ -96,6 +99,60 @@ registers! {
     Ramp "ramp" Tone,
     /// A colour channel, 0..=255.
     Channel "channel" Tone,
+}
+
+impl Register {
+    /// The register whose format this one takes, because the two meet in one adder.
+    pub fn follows(self) -> Option<Self> {
+        match self {
+            Self::DGroundX => Some(Self::GroundX),
+            Self::DGroundZ => Some(Self::GroundZ),
+            Self::DRayY => Some(Self::RayY),
+            Self::Surface | Self::SlopeX | Self::SlopeZ => Some(Self::Node),
+            Self::WeightSlope => Some(Self::Weight),
+            Self::Shade | Self::Ramp | Self::Channel => Some(Self::Normal),
+            _ => None,
+        }
+    }
+}
+
+/// What one entry of `[format]` is for: a class, or one register. Registers that follow another
+/// one take its format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Registers {
+    /// All registers of a class.
+    Class(Class),
+    /// One register, with those that follow it.
+    One(Register),
+}
+
+impl Registers {
+    /// All classes, then all registers.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let registers = Register::ALL.iter().map(|&register| Self::One(register));
+        Class::ALL.into_iter().map(Self::Class).chain(registers)
+    }
+
+    /// The class or else the register of this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::all().find(|registers| registers.name() == name)
+    }
+
+    /// Name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Class(class) => class.name(),
+            Self::One(register) => register.name(),
+        }
+    }
+
+    /// Whether a register is among them.
+    pub fn contains(self, register: Register) -> bool {
+        match self {
+            Self::Class(class) => register.class() == class,
+            Self::One(leader) => register.follows().unwrap_or(register) == leader,
+        }
+    }
 }
 
 impl std::fmt::Display for Register {

@@ -110,8 +110,41 @@ fn formats_draw_coarse_frames() {
     assert_eq!(fast, draw(&folder, "flight", "processor", &processor));
     let saturate = ["--format", "tone=10.4:nearest:saturate", "--engine", "processor"];
     draw(&folder, "flight", "saturated", &saturate);
+    let buffers = |more: &[&str]| {
+        draw(&folder, "flight", "buffers", &[&["--buffers", "all.npz"], more].concat());
+        folder.read("all.npz")
+    };
+    let stock = buffers(&[]);
+    assert!(stock == buffers(&["--format", "height=12.20"]), "the stock format is stock");
+    assert!(stock == buffers(&["--format", "view_y=2.30"]), "the stock format is stock");
+    assert!(stock != buffers(&["--format", "height=12.20:floor"]), "another rounding is not");
     let narrow = ["render", "flight", "--engine", "processor", "--format", "slope_x=4.4"];
     assert_eq!(folder.run(&narrow).status.code(), Some(2), "it follows another register");
+}
+
+#[test]
+fn what_formats_do_not_hold_is_told() {
+    let folder = Folder::new();
+    let coarse = ["--format", "ground=24.8", "--size", "64x48"];
+    let wide = ["--format", "ground=24.30", "--size", "64x48"];
+    for command in ["render", "plan"] {
+        let run = |formats: &[&str], json: &[&str]| {
+            let output = folder.run(&[&[command, "flight"], formats, json].concat());
+            assert_eq!(output.status.code(), Some(0), "{command} {formats:?}");
+            String::from_utf8(output.stdout).unwrap()
+        };
+        let claim = "more than 1/64 (ground_x Q24.8)";
+        let text = run(&coarse, &[]);
+        let told: Vec<_> = text.lines().filter(|line| line.contains("not proved: ")).collect();
+        assert!(told.len() == 1 && told[0].ends_with(claim), "{text}");
+        assert!(text.lines().next().unwrap().contains("of 8388608 cells"), "{text}");
+        let json: serde_json::Value = serde_json::from_str(&run(&coarse, &["--json"])).unwrap();
+        let told = json["not_proved"].as_array().unwrap();
+        assert!(told.len() == 1 && told[0].as_str().unwrap().ends_with(claim), "{json}");
+        assert!(!run(&wide, &[]).contains("not proved"));
+        let json: serde_json::Value = serde_json::from_str(&run(&wide, &["--json"])).unwrap();
+        assert_eq!(json["not_proved"].as_array().unwrap().len(), 0);
+    }
 }
 
 #[test]

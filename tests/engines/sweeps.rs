@@ -5,10 +5,13 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use proptest::collection::vec;
 use proptest::prelude::*;
-use terraline::engine::FixedWorld;
-use terraline::plan::Plan;
-use terraline::scene::{FormatRequest, Overflow, Rounding, WordSize};
-use terraline::setup::formats::sweep_of;
+use terraline::engine::{FixedWorld, InFixedWorld, Overflows, draw_by_lines};
+use terraline::fast::enter::Enterable;
+use terraline::plan::formats::Formats;
+use terraline::plan::{Plan, WordClass};
+use terraline::scene::{FormatRequest, Scene, WordSize};
+use terraline::setup::{Memory, Setup, SetupError};
+use terraline::word::{Class, Complete, Fixed, Overflow, Register, Registers, Rounding};
 
 use super::support::formats::requests;
 use super::support::recipe::recipes;
@@ -23,7 +26,7 @@ fn stock_words_are_a_sweep_at_the_stock_formats() {
             let mut scene = builtin(name, 48, 36);
             scene.machine.words = words;
             let plan = super::support::plan(&scene);
-            let sweep = sweep_of(plan.words(), &[], scene.seed).expect("stock formats");
+            let sweep = Formats::stock(plan.words()).sweep(scene.seed).expect("stock formats");
             assert!(sweep.wraps());
             let stock = drawn(&scene, &plan).expect("a frame");
             let swept = processor(sweep, &scene, &plan).expect("a frame");
@@ -42,7 +45,7 @@ fn random_scenes_are_the_same_in_a_sweep_at_the_stock_formats() {
             scene.machine.words = words;
             let Ok(plan) = Plan::new(&scene, None, false) else { continue };
             let Ok(stock) = drawn(&scene, &plan) else { continue };
-            let sweep = sweep_of(plan.words(), &[], scene.seed).expect("stock formats");
+            let sweep = Formats::stock(plan.words()).sweep(scene.seed).expect("stock formats");
             let swept = processor(sweep, &scene, &plan).expect("what fits stock fits here");
             compared.fetch_add(1, Relaxed);
             if let Some(difference) = difference(&stock, &swept) {
@@ -107,12 +110,12 @@ fn sweeps_that_saturate_are_drawn() {
 #[test]
 fn coarse_formats_draw_the_built_in_scenes_alike() {
     let formats = [
-        ("ground", 24, 8, Rounding::Floor),
-        ("ground", 40, 12, Rounding::Stochastic),
-        ("height", 26, 6, Rounding::TowardZero),
-        ("weight", 9, 5, Rounding::NearestEven),
-        ("view", 14, 12, Rounding::Nearest),
-        ("tone", 16, 4, Rounding::Stochastic),
+        (Class::Ground, 24, 8, Rounding::Floor),
+        (Class::Ground, 40, 12, Rounding::Stochastic),
+        (Class::Height, 26, 6, Rounding::TowardZero),
+        (Class::Weight, 9, 5, Rounding::NearestEven),
+        (Class::View, 14, 12, Rounding::Nearest),
+        (Class::Tone, 16, 4, Rounding::Stochastic),
     ];
     for name in super::support::SCENES {
         let whole = {
@@ -122,17 +125,17 @@ fn coarse_formats_draw_the_built_in_scenes_alike() {
         for (class, width, point, rounding) in formats {
             let mut scene = builtin(name, 40, 30);
             let request = FormatRequest { width, point, rounding, overflow: Overflow::Wrap };
-            scene.formats = vec![(class.to_owned(), request)];
+            scene.formats = vec![(Registers::Class(class), request)];
             let plan = super::support::plan(&scene);
             let (processor, fast) = match both(&scene, &plan) {
                 Ok(frames) => frames,
                 Err(error) if is_under_ground(&error) => continue,
-                Err(error) => panic!("{name}, {class}: {error}"),
+                Err(error) => panic!("{name}, {class:?}: {error}"),
             };
-            assert_same(&format!("{name}, {class}"), &processor, &fast);
+            assert_same(&format!("{name}, {class:?}"), &processor, &fast);
             // What was made coarse is coarse: the frame is another one.
-            if class == "view" || class == "ground" {
-                assert!(difference(&whole, &processor).is_some(), "{name}, {class}");
+            if class == Class::View || class == Class::Ground {
+                assert!(difference(&whole, &processor).is_some(), "{name}, {class:?}");
             }
         }
     }
@@ -147,7 +150,7 @@ fn saturating_formats_are_told_apart() {
         rounding: Rounding::Nearest,
         overflow: Overflow::Saturate,
     };
-    scene.formats = vec![("ground".to_owned(), request)];
+    scene.formats = vec![(Registers::Class(Class::Ground), request)];
     let plan = super::support::plan(&scene);
     let world = FixedWorld::of(&scene, &plan).expect("a sweep");
     assert!(!world.wraps());
@@ -155,4 +158,150 @@ fn saturating_formats_are_told_apart() {
     let saturated = drawn(&scene, &plan).expect("a frame");
     scene.formats.clear();
     assert_same("flight", &drawn(&scene, &plan).expect("a frame"), &saturated);
+}
+
+/// Every class and every register that leads, in its stock format and nothing else said.
+fn stock_requests(words: WordClass) -> impl Iterator<Item = (Registers, FormatRequest)> {
+    Registers::all().filter_map(move |registers| {
+        let register = match registers {
+            Registers::Class(class) => *Register::ALL.iter().find(|r| r.class() == class)?,
+            Registers::One(register) if register.follows().is_some() => return None,
+            Registers::One(register) => register,
+        };
+        let Fixed { width, point } = words.fixed(register);
+        let (rounding, overflow) = (Rounding::default(), Overflow::default());
+        Some((registers, FormatRequest { width, point, rounding, overflow }))
+    })
+}
+
+#[test]
+fn a_stock_format_that_is_asked_for_changes_nothing() {
+    for name in super::support::SCENES {
+        for words in [WordSize::Narrow, WordSize::Wide] {
+            let mut scene = builtin(name, 24, 18);
+            scene.machine.words = words;
+            let stock_plan = super::support::plan(&scene);
+            let stock = drawn(&scene, &stock_plan).expect("a frame");
+            for request in stock_requests(stock_plan.words()) {
+                scene.formats = vec![request];
+                let what = format!("{name}, {}", request.0.name());
+                let plan = super::support::plan(&scene);
+                assert_eq!(plan.not_proved, [""; 0], "{what}");
+                let (processor, fast) = both(&scene, &plan).expect("what fits stock fits here");
+                assert_same(&what, &stock, &processor);
+                assert_same(&what, &stock, &fast);
+            }
+        }
+    }
+}
+
+/// The plan of a built-in scene at its own size, with formats of bits before and after the point.
+fn told(name: &str, formats: &[(&str, u32, u32)]) -> (String, Vec<String>) {
+    let mut scene = terraline::scene::load(Some(name), &[]).expect("a built-in scene");
+    let request = |&(name, integer, point): &(&str, u32, u32)| {
+        let registers = Registers::from_name(name).expect("registers");
+        let (rounding, overflow) = (Rounding::default(), Overflow::default());
+        (registers, FormatRequest { width: integer + point, point, rounding, overflow })
+    };
+    scene.formats = formats.iter().map(request).collect();
+    let plan = super::support::plan(&scene);
+    (plan.words_why, plan.not_proved)
+}
+
+#[test]
+fn the_plan_speaks_of_the_formats_in_use() {
+    let (stock, nothing) = told("overview", &[]);
+    assert_eq!(stock, "positions reach 1060 of 2048 cells, a step's rounding is 1/115 pixel");
+    assert!(nothing.is_empty());
+    assert_eq!(told("overview", &[("ground", 12, 20), ("ray_y", 12, 20)]), (stock, nothing));
+
+    // 8 bits for 20: a rounding 4096 times as large.
+    let coarse = "a step's rounding is 35.76 pixels";
+    let (why, open) = told("overview", &[("ground", 24, 8)]);
+    assert!(why.starts_with("positions reach 1060 of 8388608 cells, heights"), "{why}");
+    assert!(why.ends_with(coarse), "{why}");
+    let claim = "the rounding of a step is 35.76 pixel, more than 1/64 (ground_x Q24.8)";
+    assert_eq!(open, [claim]);
+    // The coarsest register counts, and one of the registers may be to blame.
+    let (why, open) = told("overview", &[("ground", 12, 30), ("ground_z", 24, 8)]);
+    assert!(
+        why.starts_with("positions reach 1060 of 2048 cells") && why.ends_with(coarse),
+        "{why}"
+    );
+    assert_eq!(open, [claim.replace("ground_x", "ground_z")]);
+
+    let claims = |name, format| told(name, &[format]).1.join("; ");
+    for (name, format, part) in [
+        (
+            "overview",
+            ("ground", 9, 20),
+            "positions reach 1060 cells, the registers hold 256 (ground_x Q9.20)",
+        ),
+        ("overview", ("ray_y", 10, 20), "heights of rays reach"),
+        ("overview", ("view", 2, 18), "roundings of the view coefficients"),
+        (
+            "overview",
+            ("view_z", 1, 30),
+            "the view may reach 2, the registers hold 1 (view_z Q1.30)",
+        ),
+        ("overview", ("node", 5, 20), "heights with three bits to spare reach"),
+        ("flight", ("node", 5, 20), "(node Q5.20)"),
+        (
+            "plane",
+            ("ground", 8, 20),
+            "positions reach 1024 squares, the registers hold 128 (ground_x Q8.20)",
+        ),
+        ("plane", ("ground_z", 12, 4), "(ground_z Q12.4)"),
+        ("plane", ("denominator", 2, 12), "(denominator Q2.12)"),
+    ] {
+        let found = claims(name, format);
+        assert!(found.contains(part), "{name}, {format:?}: {found}");
+    }
+    // Rays that start at the eye use no denominator.
+    assert_eq!(claims("valley", ("denominator", 2, 8)), "");
+    assert_ne!(claims("flight", ("denominator", 2, 8)), "");
+}
+
+/// Pixels whose wires carry an overflow.
+struct Overflown<'a>(&'a Scene, &'a Plan);
+
+impl InFixedWorld for Overflown<'_> {
+    type Output = Result<Overflows, SetupError>;
+    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+        let Self(scene, plan) = self;
+        let memory = Memory::new(&world, scene, plan)?;
+        let setup = Setup::new(world, scene, plan, memory.as_ref())?;
+        let mut overflows = Overflows::default();
+        draw_by_lines(&setup, plan, false, |line| overflows.inspect(line));
+        Ok(overflows)
+    }
+}
+
+#[test]
+fn formats_that_are_proved_do_not_overflow() {
+    let (proved, open) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let strategy = (recipes(), vec(requests(), 1..=2), 0..=12_u32);
+    let result = runner(200).run(&strategy, |(recipe, mut formats, more)| {
+        for (_, request) in &mut formats {
+            // Mostly wide and fine enough for a proof.
+            let integer = (request.width - request.point + more).min(38);
+            request.point = request.point.clamp(22, 62 - integer);
+            request.width = integer + request.point;
+        }
+        let mut scene = recipe.scene();
+        scene.formats = formats;
+        let Ok(plan) = Plan::new(&scene, None, false) else { return Ok(()) };
+        let Ok(world) = FixedWorld::of(&scene, &plan) else { return Ok(()) };
+        let Ok(overflows) = world.run(Overflown(&scene, &plan)) else { return Ok(()) };
+        if plan.not_proved.is_empty() {
+            proved.fetch_add(1, Relaxed);
+            prop_assert_eq!(overflows, Overflows::default(), "{:?}", scene.formats);
+        } else {
+            open.fetch_add(1, Relaxed);
+        }
+        Ok(())
+    });
+    result.unwrap();
+    println!("{proved:?} proved, {open:?} not");
+    assert!(proved.load(Relaxed) > 30 && open.load(Relaxed) > 5, "{proved:?} {open:?}");
 }

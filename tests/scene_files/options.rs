@@ -43,7 +43,7 @@ fn options_override_the_file() {
     assert_eq!(terrain(&scene).nodata, NoData::Nearest);
     assert_eq!((terrain(&scene).offset, terrain(&scene).scale), (5.0, 1.0));
     assert_eq!(scene.color.ramp, [[0, 0, 0], [9, 9, 9], [255, 255, 255]]);
-    assert_eq!((scene.formats[2].0.as_str(), scene.formats[2].1.width), ("height", 24));
+    assert_eq!((scene.formats[2].0.name(), scene.formats[2].1.width), ("height", 24));
     assert_eq!((scene.stepper.halvings, scene.seed), (Halvings::Footprint, 4));
 }
 

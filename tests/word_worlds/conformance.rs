@@ -132,7 +132,7 @@ fn wide_conforms() {
 
 #[test]
 fn sweeps_conform() {
-    for rounding in super::ROUNDINGS {
+    for rounding in Rounding::ALL {
         conforms(swept(|_| (2, 0), rounding));
         conforms(swept(|_| (2, 2), rounding));
         conforms(swept(|_| (64, 64), rounding));

@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 use terraline::word::sweep::SweepWord;
-use terraline::word::{Multiply, Overflow, Readout, Register, Rescale, Rounding, Site};
+use terraline::word::{Multiply, Overflow, Readout, Register, Registers, Rescale, Rounding, Site};
 
-use super::{ROUNDINGS, bits, floor, format, nearest, site, sweep};
+use super::{bits, floor, format, nearest, site, sweep};
 
 /// `numerator / denominator` rounded by definition; the two neighbours for stochastic rounding.
 fn rounded(rounding: Rounding, numerator: i128, denominator: i128) -> Vec<i128> {
@@ -32,7 +32,7 @@ proptest! {
     #[test]
     fn shifts(value in bits(64), places in 0..=60_u32, random in any::<u64>()) {
         let value = i128::from(value);
-        for rounding in ROUNDINGS {
+        for rounding in Rounding::ALL {
             let found = rounding.shift_right(value, places, || random);
             let expected = rounded(rounding, value, 1 << places);
             prop_assert!(expected.contains(&found), "{rounding:?}: {found}, not {expected:?}");
@@ -54,7 +54,7 @@ proptest! {
         value in bits(40), point in 0..=30_u32, to in 0..=30_u32, exponent in -20..=4_i32,
         line in any::<u32>(), column in any::<u32>(),
     ) {
-        for rounding in ROUNDINGS {
+        for rounding in Rounding::ALL {
             let from = sweep(value, format(40, point, Rounding::Floor, Overflow::Wrap));
             let target = format(64, to, rounding, Overflow::Wrap);
             let word: SweepWord = from.rescale(exponent, target, place(line, column, 0));
@@ -71,7 +71,7 @@ proptest! {
     #[test]
     fn products_round_once(four in [bits(31), bits(31), bits(31), bits(31)], point in 1..=20_u32) {
         let [a, b, c, d] = four;
-        for rounding in ROUNDINGS {
+        for rounding in Rounding::ALL {
             let heights = format(60, 20, rounding, Overflow::Wrap);
             // The format of the other factor has its own rounding, which does not matter.
             let weights = format(32, point, Rounding::Floor, Overflow::Saturate);
@@ -185,4 +185,21 @@ fn every_part_of_the_place_and_the_seed_changes_draws() {
         let differ = base.iter().zip(&other).filter(|(a, b)| a != b).count();
         assert!((1888..=2208).contains(&differ), "{differ} of {N} differ");
     }
+}
+
+#[test]
+fn names_are_told_apart_and_read_back() {
+    for rounding in Rounding::ALL {
+        assert_eq!(Rounding::from_name(rounding.name()), Some(rounding));
+    }
+    for overflow in Overflow::ALL {
+        assert_eq!(Overflow::from_name(overflow.name()), Some(overflow));
+    }
+    for registers in Registers::all() {
+        // `weight` is a class and its leader: the same registers.
+        let read = Registers::from_name(registers.name()).expect("a name");
+        assert!(Register::ALL.iter().all(|&r| read.contains(r) == registers.contains(r)));
+    }
+    assert_eq!((Rounding::from_name("up"), Overflow::from_name("")), (None, None));
+    assert_eq!(Registers::from_name("View"), None);
 }

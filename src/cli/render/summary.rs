@@ -55,6 +55,7 @@ pub(super) struct Summary {
     engine: &'static str,
     world: &'static str,
     world_why: String,
+    not_proved: Vec<String>,
     columns: usize,
     lines: usize,
     units: Vec<UnitPlan>,
@@ -110,7 +111,8 @@ impl Render {
                 Engine::Oracle => "oracle",
                 _ => world.name(),
             },
-            world_why: plan.words_why().to_owned(),
+            world_why: plan.words_why.clone(),
+            not_proved: plan.not_proved.clone(),
             columns: drawn.frame.columns,
             lines: drawn.frame.lines,
             units: world.run(Units { planned }),
@@ -165,6 +167,7 @@ impl Render {
             summary.world,
             summary.world_why
         )];
+        out.extend(report::not_proved(&summary.not_proved));
         let fitted: Vec<_> =
             summary.units.iter().filter(|unit| unit.fitted).map(|unit| unit.name).collect();
         out.push(format!("  fitted    {}", fitted.join(", ")));

@@ -1,0 +1,119 @@
+//! What a plan proves of the registers in use, and what it cannot prove.
+
+use super::formats::Formats;
+use super::geometry::Geometry;
+use super::{LARGEST_PLACE, PlanError};
+use crate::word::Register;
+
+/// A claim that does not hold.
+#[derive(Debug)]
+pub(super) struct Refusal {
+    /// Field of the scene.
+    pub(super) field: &'static str,
+    /// What is wrong.
+    pub(super) reason: String,
+    /// What to do about it.
+    pub(super) remedy: &'static str,
+    /// The register whose format is to blame.
+    pub(super) register: Register,
+}
+
+impl From<Refusal> for PlanError {
+    fn from(Refusal { field, reason, remedy, .. }: Refusal) -> Self {
+        Self::Range { field, reason, remedy }
+    }
+}
+
+/// What was found of the registers in use.
+#[derive(Debug)]
+pub(super) struct Proof {
+    /// How far ranges and roundings go in them.
+    pub(super) facts: String,
+    /// The claims that do not hold.
+    pub(super) refusals: Vec<Refusal>,
+}
+
+/// What reports say of the registers in use.
+#[derive(Clone, Debug)]
+pub(super) struct Finding {
+    /// Why these words or formats do, or how far they go.
+    pub(super) why: String,
+    /// What is not proved of a sweep; nothing in stock words, which are refused instead.
+    pub(super) not_proved: Vec<String>,
+}
+
+impl Finding {
+    /// Of stock words, which are proved.
+    pub(super) fn proved(why: impl Into<String>) -> Self {
+        Self { why: why.into(), not_proved: Vec::new() }
+    }
+}
+
+impl Proof {
+    /// The facts, where every claim holds.
+    pub(super) fn holds(self) -> Result<String, Refusal> {
+        self.refusals.into_iter().next().map_or(Ok(self.facts), Err)
+    }
+
+    /// Facts and open claims of a sweep: its formats are coarse on purpose, its overflows counted.
+    pub(super) fn told(self, formats: &Formats<'_>) -> Finding {
+        let told = |Refusal { reason, register, .. }: &Refusal| {
+            format!("{reason} ({register} {})", formats.fixed(*register))
+        };
+        Finding { why: self.facts, not_proved: self.refusals.iter().map(told).collect() }
+    }
+}
+
+impl Formats<'_> {
+    /// The register with the largest last bit among some.
+    pub(super) fn coarsest(&self, registers: &[Register]) -> Register {
+        self.least(registers, |register| -self.fixed(register).ulp())
+    }
+
+    /// The register with the smallest range among some, and the largest magnitude that the plan
+    /// allows it.
+    pub(super) fn shortest(&self, registers: &[Register]) -> (Register, f64) {
+        let register = self.least(registers, |register| self.fixed(register).limit());
+        (register, self.fixed(register).limit().min(LARGEST_PLACE))
+    }
+
+    fn least(&self, registers: &[Register], measure: impl Fn(Register) -> f64) -> Register {
+        let less = |a, b| if measure(b) < measure(a) { b } else { a };
+        registers.iter().copied().fold(registers[0], less)
+    }
+
+    /// What does not hold of the accumulators of the view: coefficients are below two, and half a
+    /// bit off each (equation 29).
+    pub(super) fn view_refusals(
+        &self,
+        geometry: &Geometry,
+        registers: &[Register],
+    ) -> impl Iterator<Item = Refusal> {
+        let (shortest, limit) = self.shortest(registers);
+        let range = (limit < 2.0).then(|| Refusal {
+            field: "format",
+            reason: format!("coefficients of the view may reach 2, the registers hold {limit}"),
+            remedy: "give two bits before the point",
+            register: shortest,
+        });
+        let coarsest = self.coarsest(registers);
+        let coefficients = f64::from(geometry.columns) + f64::from(geometry.lines);
+        let drift = coefficients * self.fixed(coarsest).ulp() / 2.0;
+        let rounding = (drift > geometry.finest_angle / 128.0).then(|| Refusal {
+            field: "screen.size",
+            reason: "the roundings of the view coefficients add up to more than 1/128 pixel".into(),
+            remedy: "draw fewer or coarser pixels",
+            register: coarsest,
+        });
+        range.into_iter().chain(rounding)
+    }
+}
+
+/// A length of which a pixel has so many: `1/115 pixel`, or `35.61 pixels` where it is not small.
+pub(super) fn in_pixels(per_pixel: f64) -> String {
+    if per_pixel >= 10.0 {
+        format!("1/{per_pixel:.0} pixel")
+    } else {
+        format!("{:.2} pixels", 1.0 / per_pixel)
+    }
+}

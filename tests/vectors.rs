@@ -212,7 +212,7 @@ fn hostile_rows_reach_every_outcome() {
     least(outcomes("overview", "stepper", ("out", "hit")), [300, 300, 1, 0]);
     least(outcomes("valley", "stepper", ("out", "hit")), [50, 1000, 0, 0]);
     least(outcomes("overview", "interpolator", ("in", "hit")), [0, 1000, 100, 0]);
-    least(outcomes("overview", "shader", ("in", "hit")), [50, 1000, 50, 50]);
+    least(outcomes("overview", "pixel", ("in", "hit")), [50, 1000, 50, 50]);
 }
 
 #[test]

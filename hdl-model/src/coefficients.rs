@@ -6,9 +6,9 @@ use terraline::scene::Machine;
 use terraline::setup::{Back, Setup, TerrainUnits};
 
 use terraline::unit::checker::Checker;
-use terraline::unit::color::Flat;
 use terraline::unit::height_memory::Edge;
 use terraline::unit::interpolator::Form;
+use terraline::unit::pixel::Pixel;
 use terraline::unit::projector::Linear;
 use terraline::unit::stepper::HalvingRule;
 use terraline::word::{Complete, Readout, Word};
@@ -237,7 +237,7 @@ fn terrain<W: Complete>(out: &mut Values, units: &TerrainUnits<W>) {
         out.word("slope_scale_z", z);
     }
     let shader = &units.shader;
-    flat(out, shader.flat);
+    constants(out, shader.pixel);
     if let Some(light) = &shader.light {
         let [x, y, z] = light.toward;
         out.set("lit", true);
@@ -252,7 +252,7 @@ fn terrain<W: Complete>(out: &mut Values, units: &TerrainUnits<W>) {
 }
 
 fn plane<W: Complete>(out: &mut Values, checker: &Checker<W>) {
-    flat(out, checker.flat);
+    constants(out, checker.pixel);
     for (names, words) in [
         (["mean_red", "mean_green", "mean_blue"], checker.mean),
         (["swing_red", "swing_green", "swing_blue"], checker.swing),
@@ -269,9 +269,9 @@ fn plane<W: Complete>(out: &mut Values, checker: &Checker<W>) {
     }
 }
 
-fn flat(out: &mut Values, flat: Flat) {
+fn constants(out: &mut Values, pixel: Pixel) {
     for (name, [red, green, blue]) in
-        [("sky_color", flat.sky), ("far_color", flat.far), ("side_color", flat.side)]
+        [("sky_color", pixel.sky), ("far_color", pixel.out_of_range), ("side_color", pixel.side)]
     {
         out.set(name, u32::from_le_bytes([red, green, blue, 0]));
     }

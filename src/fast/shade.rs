@@ -1,5 +1,6 @@
 //! Interpolator and shader at the hits of a line, sixteen pixels at a time: the arithmetic of
-//! `unit::interpolator` and `unit::shader` on vectors.
+//! `unit::interpolator`, and of `light`, `ramp`, `mixer` and `pixel` there in functions of the same
+//! names, on vectors.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
@@ -11,16 +12,14 @@ use super::words::{LANES, Packed, Words, lanes};
 use crate::frame::Hit;
 use crate::unit::Line;
 use crate::unit::interpolator::Form;
-use crate::unit::shader::{Light, Ramp, TerrainShader};
+use crate::unit::light::Light;
+use crate::unit::ramp::Ramp;
+use crate::unit::shader::Shader;
 use crate::word::Lane as _;
 
 /// Drives `surface`, `slope_x`, `slope_z` and `color` of one line.
 #[inline(always)]
-pub fn run<W: Packed, S: Simd>(
-    land: &Land<'_, W, S>,
-    shader: &TerrainShader<W>,
-    line: &mut Line<W>,
-) {
+pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, shader: &Shader<W>, line: &mut Line<W>) {
     if land.surface.form == Form::Stretch || !factors_are_short(land, shader) {
         land.surface.run(line);
         shader.run(line);
@@ -33,18 +32,15 @@ pub fn run<W: Packed, S: Simd>(
             lit(land, shader, line, from);
         }
         for i in pixels {
-            match line.hit[i] {
-                Hit::Surface => {}
-                Hit::Sky => line.color[i] = shader.flat.sky,
-                Hit::Far => line.color[i] = shader.flat.far,
-                Hit::Side => line.color[i] = shader.flat.side,
+            if let Some(color) = shader.pixel.constant(line.hit[i]) {
+                line.color[i] = color;
             }
         }
     }
 }
 
 /// Whether the factors that a scene can make long have 32 bits, and their products 64.
-fn factors_are_short<W: Packed, S: Simd>(land: &Land<'_, W, S>, shader: &TerrainShader<W>) -> bool {
+fn factors_are_short<W: Packed, S: Simd>(land: &Land<'_, W, S>, shader: &Shader<W>) -> bool {
     let short = |factor: W::Int| i32::try_from(factor.into()).is_ok();
     let steepest: i64 = land.stepper.top.int().into();
     let product = |factor: W::Int| steepest.checked_mul(4)?.checked_mul(factor.into());
@@ -59,7 +55,7 @@ fn factors_are_short<W: Packed, S: Simd>(land: &Land<'_, W, S>, shader: &Terrain
 #[inline(always)]
 fn lit<W: Packed, S: Simd>(
     land: &Land<'_, W, S>,
-    shader: &TerrainShader<W>,
+    shader: &Shader<W>,
     line: &mut Line<W>,
     from: usize,
 ) {
@@ -85,16 +81,12 @@ fn lit<W: Packed, S: Simd>(
         let [scale_x, scale_z] = scale.map(|scale| word(land, scale.int()));
         (slope_x, slope_z) = (slope_x.weighted(scale_x), slope_z.weighted(scale_z));
     }
-    let mut channels = colors(land, &shader.ramp, surface);
-    if let Some(light) = &shader.light {
-        let shade = lighting(land, light, slope_x, slope_z);
-        for channel in &mut channels {
-            *channel = channel.weighted(shade);
-        }
+    let mut color = ramp(land, &shader.ramp, surface);
+    if let Some(unit) = &shader.light {
+        let shade = light(land, unit, slope_x, slope_z);
+        color = mixer::<W, S>(color, shade);
     }
-    let [red, green, blue] = channels;
-    let (red, green, blue) = (byte::<W, S>(red), byte::<W, S>(green), byte::<W, S>(blue));
-    let (red, green, blue) = (red.to_array(), green.to_array(), blue.to_array());
+    let [red, green, blue] = pixel::<W, S>(color);
     let (surface, slope_x, slope_z) = (surface.store(), slope_x.store(), slope_z.store());
     for lane in 0..count {
         line.surface[from + lane] = W::Height::of_int(surface[lane]);
@@ -134,7 +126,7 @@ fn two_products<W: Packed, S: Simd>(
 
 /// Ambient plus diffuse light: `Light::shade`.
 #[inline(always)]
-fn lighting<W: Packed, S: Simd>(
+fn light<W: Packed, S: Simd>(
     land: &Land<'_, W, S>,
     light: &Light<W>,
     slope_x: W::Words<S>,
@@ -160,9 +152,9 @@ fn lighting<W: Packed, S: Simd>(
     lit.select((ambient + product::<W, S>(dot, rsqrt)).min(one), ambient)
 }
 
-/// Colours on the ramp: `Ramp::color` at `Ramp::place`.
+/// Albedo: `Ramp::color` at `Ramp::place`.
 #[inline(always)]
-fn colors<W: Packed, S: Simd>(
+fn ramp<W: Packed, S: Simd>(
     land: &Land<'_, W, S>,
     ramp: &Ramp<W>,
     surface: W::Words<S>,
@@ -185,9 +177,20 @@ fn colors<W: Packed, S: Simd>(
     colors
 }
 
-/// The nearest bytes.
+/// Albedo times shade: `Mixer`.
 #[inline(always)]
-fn byte<W: Packed, S: Simd>(channel: W::Words<S>) -> i32x16<S> {
-    let half = i32x16::simd_from(channel.cell().token(), 1 << (W::Words::<S>::POINT - 1));
-    (channel + W::Words::widened(half)).cell().max(0).min(255)
+fn mixer<W: Packed, S: Simd>(albedo: [W::Words<S>; 3], shade: i32x16<S>) -> [W::Words<S>; 3] {
+    let [red, green, blue] = albedo;
+    [red.weighted(shade), green.weighted(shade), blue.weighted(shade)]
+}
+
+/// The nearest bytes: `Pixel::rounded`.
+#[inline(always)]
+fn pixel<W: Packed, S: Simd>(lit: [W::Words<S>; 3]) -> [[i32; LANES]; 3] {
+    let half = i32x16::simd_from(lit[0].cell().token(), 1 << (W::Words::<S>::POINT - 1));
+    let mut bytes = [[0; LANES]; 3];
+    for (bytes, channel) in bytes.iter_mut().zip(lit) {
+        *bytes = (channel + W::Words::widened(half)).cell().max(0).min(255).to_array();
+    }
+    bytes
 }

@@ -10,11 +10,14 @@ use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanePlan};
 use crate::scene::{Colors, Halvings, Plane, Scene};
 use crate::unit::checker::Checker;
-use crate::unit::color::Flat;
 use crate::unit::divider::Divider;
 use crate::unit::interpolator::Interpolator;
+use crate::unit::light::Light;
+use crate::unit::mixer::Mixer;
+use crate::unit::pixel::Pixel;
 use crate::unit::projector::{Linear, Projector};
-use crate::unit::shader::{Light, Ramp, Segment, TerrainShader};
+use crate::unit::ramp::{Ramp, Segment};
+use crate::unit::shader::Shader;
 use crate::unit::stepper::{HalvingRule, Stepper};
 use crate::word::{Dividing, Load, Open, Ratio, Register, Word, World};
 
@@ -242,18 +245,18 @@ pub(super) fn interpolator<W: Open>(
     })
 }
 
-fn flat(color: &Colors) -> Flat {
-    Flat { sky: color.sky, far: color.far, side: color.side }
+fn pixel(color: &Colors) -> Pixel {
+    Pixel { sky: color.sky, out_of_range: color.far, side: color.side }
 }
 
 /// The shader's registers for a height map.
-pub(super) fn terrain_shader<W: Open>(
+pub(super) fn shader<W: Open>(
     world: &W,
     scene: &Scene,
     plan: &Plan,
     walk: &WalkPlan,
     memory: &Memory<W>,
-) -> Result<TerrainShader<W>, SetupError> {
+) -> Result<Shader<W>, SetupError> {
     let tone = |value, register: Register| load(value, register, world.tone(register));
     let light = if plan.fitted.light {
         let diffuse = 1.0 - scene.light.ambient;
@@ -283,8 +286,8 @@ pub(super) fn terrain_shader<W: Open>(
         };
         Ok([channel(0)?, channel(1)?, channel(2)?])
     };
-    Ok(TerrainShader {
-        flat: flat(&scene.color),
+    Ok(Shader {
+        mixer: Mixer { shaded: light.is_some() },
         light,
         ramp: Ramp {
             exponent,
@@ -292,6 +295,7 @@ pub(super) fn terrain_shader<W: Open>(
             segments: scene.color.ramp.windows(2).map(segment).collect::<Result<_, _>>()?,
             format: world.tone(Register::Ramp),
         },
+        pixel: pixel(&scene.color),
     })
 }
 
@@ -324,7 +328,7 @@ pub(super) fn checker<W: Open>(
     let gain =
         if at_zero_contrast == 0.0 { 0.0 } else { 1.0 / (at_zero_contrast * power(exponent)) };
     Ok(Checker {
-        flat: flat(&scene.color),
+        pixel: pixel(&scene.color),
         mean,
         swing,
         contrast_exponent: exponent,

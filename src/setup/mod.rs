@@ -20,7 +20,7 @@ use crate::unit::divider::Divider;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::line::Line;
 use crate::unit::projector::Projector;
-use crate::unit::shader::TerrainShader;
+use crate::unit::shader::Shader;
 use crate::unit::stepper::{Stepper, SurfaceUnit};
 use crate::word::{Complete, Interpolating, Open, Readout, Register, Shading, Site, World};
 
@@ -64,7 +64,7 @@ pub struct TerrainUnits<W: World> {
     /// Interpolator.
     pub interpolator: Interpolator<W>,
     /// Shader.
-    pub shader: TerrainShader<W>,
+    pub shader: Shader<W>,
     /// The map as the fast engine reads it; absent where the machine does not skip.
     pub relief: Option<Arc<Relief<W::Height>>>,
 }
@@ -103,7 +103,7 @@ impl<W: Complete> Setup<W> {
                 let stepper = coefficients::stepper(&world, scene, walk, memory)?;
                 let interpolator = coefficients::interpolator(&world, plan, walk, memory)?;
                 refuse_eye_under_ground(walk, &stepper, &interpolator)?;
-                let shader = coefficients::terrain_shader(&world, scene, plan, walk, memory)?;
+                let shader = coefficients::shader(&world, scene, plan, walk, memory)?;
                 Back::Terrain(Box::new(TerrainUnits {
                     stepper,
                     interpolator,

@@ -21,8 +21,9 @@ pub const RAY_START: u32 = 4;
 pub const RAY_END: u32 = 2;
 /// Pipeline stages of the interpolator at the hit behind those of a height: the factors of slopes.
 pub const SLOPE_LATENCY: u32 = 2;
-/// Pipeline stages of the shader (normal, squares, table, dot product, light, ramp, mix, byte), and
-/// of the checker, which has fewer to do.
+/// Pipeline stages of the shader: eleven of light and ramp side by side (normal, squares, table, dot
+/// product, light; place, segment, colour), one of the mixer's products, one of mixer and pixel that
+/// rounds them. The checker, which has fewer to do, takes as many.
 pub const SHADER_LATENCY: u32 = 13;
 /// Register stages of the divider besides one per quotient bit: shift, bias and range, eye.
 pub const DIVIDER_ENDS: u32 = 3;
@@ -81,22 +82,22 @@ pub fn entry(register: Register) -> Entry {
         R::SlopeZ => row("interpolator", "−∂y/∂z", "1", "15, 18", "table's share (13)"),
         R::Weight => row("kernel ROM", "kernel weight", "1", "12, 16", "½ ulp + (13)"),
         R::WeightSlope => row("kernel ROM", "its derivative", "1/cell", "12, 16", "½ ulp + (13)"),
-        R::Normal => row("shader", "normal, scaled below one", "1", "23", "½ ulp"),
+        R::Normal => row("light", "normal, scaled below one", "1", "23", "½ ulp"),
         R::Shade => row(
-            "shader, checker",
+            "light, checker",
             "ambient plus diffuse light; contrast",
             "1",
             "24, 25, 27",
             "2^-10 + 6 ulp (24)",
         ),
         R::Ramp => row(
-            "shader",
+            "ramp",
             "place on the ramp",
             "segments",
             "26",
             "segments + 1 ulp, plus the height's",
         ),
-        R::Channel => row("shader, checker", "colour channel", "0..=255", "26, 27", "1 level"),
+        R::Channel => row("ramp, mixer, checker", "colour channel", "0..=255", "26, 27", "1 level"),
     }
 }
 

@@ -28,9 +28,8 @@ use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::setup::{Back, Memory, Setup, SetupError, table};
 use crate::unit::Line;
-use crate::unit::divider::Method;
 use crate::word::{Complete, Overflow, Register, Rounding};
-use bench::{Behind, Bench};
+use bench::Benches;
 use hostile::Hostile;
 use scan::Scan;
 use selection::Selection;
@@ -185,10 +184,7 @@ impl<'a> Files<'a> {
     ) -> Result<Vec<Written>, SinkError> {
         let world = &setup.world;
         let mut scan = Scan::begin(self, setup)?;
-        let divider = setup.divider.as_ref();
-        let begin = |unit| Bench::begin(self, world, units::divider(world, unit));
-        let mut ratio = divider.map(begin).transpose()?;
-        let mut behind = Behind::begin(self, setup, chain)?;
+        let mut benches = Benches::begin(self, setup, chain)?;
         let mut timing = Timing::begin(self, chain)?;
 
         let mut start = setup.projector.first_line();
@@ -202,10 +198,7 @@ impl<'a> Files<'a> {
             line.number = *number;
             setup.projector.run(&start, &mut line);
             scan.rows(&line, 0, line.len())?;
-            if let (Some(bench), Some(unit)) = (&mut ratio, divider) {
-                bench.run(&mut line, false, |line| unit.run(line, Method::Array))?;
-            }
-            behind.run(&mut line)?;
+            benches.rows(&mut line)?;
             timing.rows(&line)?;
         }
 
@@ -213,19 +206,11 @@ impl<'a> Files<'a> {
         let mut hostile = Hostile::new(*world, self.vectors.seed);
         scan.hostile_rows(&setup.projector, &mut hostile, count)?;
         for from in (0..count).step_by(CHUNK as usize) {
-            let pixels = CHUNK.min(count - from);
-            if let (Some(bench), Some(unit)) = (&mut ratio, divider) {
-                let mut line = hostile.divider(unit, pixels);
-                bench.run(&mut line, true, |line| unit.run(line, Method::Array))?;
-            }
-            behind.run_hostile(&mut hostile, divider, pixels)?;
+            benches.hostile_rows(&mut hostile, CHUNK.min(count - from))?;
         }
 
         let mut written = scan.finish()?.to_vec();
-        if let Some(bench) = ratio {
-            written.push(bench.finish()?);
-        }
-        written.extend(behind.finish()?);
+        written.extend(benches.finish()?);
         written.push(timing.finish()?);
         if let Back::Terrain(units) = &setup.back {
             written.extend(memories::write(world, units, self.folder, self.scene)?);

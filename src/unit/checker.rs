@@ -11,16 +11,16 @@
 //! *Cycles*: one pixel per cycle. *Never*: divides.
 
 use super::Line;
-use super::color::{Flat, byte};
 use super::line::Entry;
+use super::pixel::Pixel;
 use crate::frame::Hit;
 use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Word, World};
 
 /// The checker: the shader of planes.
 #[derive(Clone, Debug)]
 pub struct Checker<W: World> {
-    /// Constant colours.
-    pub flat: Flat,
+    /// Constant colours; a plane has no side.
+    pub pixel: Pixel,
     /// Mean of the two colours.
     pub mean: [W::Tone; 3],
     /// Half their difference.
@@ -43,8 +43,8 @@ impl<W: Shading> Checker<W> {
     pub fn run(&self, line: &mut Line<W>) {
         for i in 0..line.len() {
             (line.hit[i], line.color[i]) = match line.entry[i] {
-                Entry::Sky => (Hit::Sky, self.flat.sky),
-                Entry::Far => (Hit::Far, self.flat.far),
+                Entry::Sky => (Hit::Sky, self.pixel.sky),
+                Entry::Far => (Hit::Far, self.pixel.out_of_range),
                 Entry::Met => {
                     let site = Site::pixel(line.number, line.column[i]);
                     let contrast = self.contrast(line.denominator[i], site);
@@ -79,12 +79,10 @@ impl<W: Shading> Checker<W> {
     #[inline(always)]
     fn color(&self, contrast: W::Tone, odd: bool, site: Site) -> [u8; 3] {
         let site = site.at(Register::Channel);
-        let mut color = [0; 3];
-        let channels = self.mean.iter().zip(&self.swing).zip(0..);
-        for (out, ((&mean, &swing), at)) in color.iter_mut().zip(channels) {
-            let swing = swing.multiply(contrast, site.step(at));
-            *out = byte(if odd { mean - swing } else { mean + swing });
-        }
-        color
+        Pixel::rounded(std::array::from_fn(|at| {
+            let (mean, swing) = (self.mean[at], self.swing[at]);
+            let swing = swing.multiply(contrast, site.step(at as u32));
+            if odd { mean - swing } else { mean + swing }
+        }))
     }
 }

@@ -64,6 +64,12 @@ pub struct Line<W: World> {
     pub slope_x: Vec<W::Height>,
     /// Negated slope of the surface against z.
     pub slope_z: Vec<W::Height>,
+    /// Light that the surface reflects, from 0 to 1.
+    pub shade: Vec<W::Tone>,
+    /// Colour of the ground before it is lit, channels from 0 to 255.
+    pub albedo: Vec<[W::Tone; 3]>,
+    /// Colour of the lit ground, channels from 0 to 255.
+    pub lit: Vec<[W::Tone; 3]>,
     /// sRGB bytes.
     pub color: Vec<[u8; 3]>,
 }
@@ -75,6 +81,7 @@ impl<W: World> Line<W> {
         let n = column.len();
         let view = vec![W::View::zero(world.view(Register::ViewX)); n];
         let height = |register| vec![W::Height::zero(world.height(register)); n];
+        let color = vec![[W::Tone::zero(world.tone(Register::Channel)); 3]; n];
         Self {
             number: 0,
             column,
@@ -91,6 +98,9 @@ impl<W: World> Line<W> {
             surface: height(Register::Surface),
             slope_x: height(Register::SlopeX),
             slope_z: height(Register::SlopeZ),
+            shade: vec![W::Tone::zero(world.tone(Register::Shade)); n],
+            albedo: color.clone(),
+            lit: color,
             color: vec![[0; 3]; n],
         }
     }

@@ -8,20 +8,24 @@
 //!                  pyramid  heights + kernel ROM
 //! ```
 //!
-//! On a plane the checker follows the divider.
+//! The shader is four units in one stage: light, ramp, mixer, pixel. On a plane the checker follows
+//! the divider.
 //!
 //! Floating point does not occur here: floats belong to set-up, oracle and studies.
 #![deny(clippy::float_arithmetic)]
 
 pub mod checker;
-pub mod color;
 pub mod divider;
 pub mod height_memory;
 pub mod interpolator;
 pub mod kernel_rom;
+pub mod light;
 pub mod line;
+pub mod mixer;
+pub mod pixel;
 pub mod projector;
 pub mod pyramid;
+pub mod ramp;
 pub mod shader;
 pub mod stepper;
 

@@ -15,7 +15,7 @@
 //! |---|---|
 //! | [`Word`] | every unit |
 //! | [`Rescale`], [`Cell`] | units that pass values from one register to another of another class |
-//! | [`Multiply`] | interpolator, shader, checker (shift-and-add multipliers, counted) |
+//! | [`Multiply`] | interpolator, light, ramp, mixer, checker (shift-and-add multipliers, counted) |
 //! | [`Divide`] | divider (non-restoring array, counted) |
 //! | [`Load`] | set-up only: the one door from `f64` |
 //! | [`Readout`] | sinks and studies only: the way back |
@@ -275,7 +275,7 @@ pub trait World: Copy + Debug + Send + Sync + 'static {
 pub trait Interpolating: World<Height: Multiply<Self::Weight>> {}
 impl<W: World<Height: Multiply<W::Weight>>> Interpolating for W {}
 
-/// A world whose colours can be mixed: what shader and checker ask for.
+/// A world whose colours can be mixed: what light, ramp, mixer and checker ask for.
 pub trait Shading: World<Tone: Multiply<Self::Tone>> {}
 impl<W: World<Tone: Multiply<W::Tone>>> Shading for W {}
 

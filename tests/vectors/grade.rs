@@ -14,6 +14,7 @@ use terraline::sink::vectors::selection::Selection;
 use terraline::unit::Line;
 use terraline::unit::divider::Method;
 use terraline::unit::line::Entry;
+use terraline::unit::shader::Shader;
 use terraline::word::{Complete, Load, Readout, Register};
 
 use super::reader::File;
@@ -81,12 +82,14 @@ impl Grade<'_> {
         match &setup.back {
             Back::Plane(_) => names.push("checker"),
             Back::Terrain(units) => {
-                names.extend(["stepper", "interpolator", "shader", "height_memory", "ramp"]);
+                names.extend(["stepper", "interpolator", "ramp", "mixer", "pixel"]);
+                names.extend(["height_memory", "ramp_segments"]);
                 let optional = [
                     ("void_bits", units.interpolator.heights.has_voids()),
                     ("pyramid", units.stepper.pyramid.is_some()),
                     ("kernel_weight", units.interpolator.rom.is_some()),
                     ("kernel_slope", units.interpolator.rom.is_some()),
+                    ("light", units.shader.light.is_some()),
                     ("rsqrt", units.shader.light.is_some()),
                 ];
                 names.extend(optional.iter().filter(|(_, fitted)| *fitted).map(|(name, _)| name));
@@ -134,7 +137,17 @@ impl Grade<'_> {
 
     /// What a unit gets in a row of the scene is what the last unit before that drives the wire says.
     fn handed_on(&self) -> Result<(), String> {
-        let order = ["projector", "divider", "stepper", "interpolator", "shader", "checker"];
+        let order = [
+            "projector",
+            "divider",
+            "stepper",
+            "interpolator",
+            "light",
+            "ramp",
+            "mixer",
+            "pixel",
+            "checker",
+        ];
         let mut driven: BTreeMap<&str, (&File, usize)> = BTreeMap::new();
         for file in order.iter().filter_map(|name| self.files.get(*name)) {
             for (at, column) in file.columns.iter().enumerate() {
@@ -174,8 +187,8 @@ impl Grade<'_> {
                 registers(
                     file,
                     &[
-                        ("sky", Some(packed(unit.flat.sky))),
-                        ("far", Some(packed(unit.flat.far))),
+                        ("sky", Some(packed(unit.pixel.sky))),
+                        ("out_of_range", Some(packed(unit.pixel.out_of_range))),
                         ("mean_red", mean[0]),
                         ("mean_green", mean[1]),
                         ("mean_blue", mean[2]),
@@ -227,22 +240,52 @@ impl Grade<'_> {
         unit.run(&mut line);
         compare(file, &line, chain)?;
 
-        let (file, unit) = (&self.files["shader"], &units.shader);
+        self.shader(world, &units.shader, chain)
+    }
+
+    fn shader<W: Complete>(
+        &self,
+        world: &W,
+        shader: &Shader<W>,
+        chain: &Chain,
+    ) -> Result<(), String> {
+        if let Some(unit) = &shader.light {
+            let file = &self.files["light"];
+            let [x, y, z] = unit.toward.map(Readout::raw);
+            registers(file, &[("light_x", x), ("light_y", y), ("light_z", z)])?;
+            registers(file, &[("ambient", unit.ambient.raw()), ("one", unit.one.raw())])?;
+            let mut line = wires(world, file)?;
+            unit.run(&mut line);
+            compare(file, &line, chain)?;
+        }
+        let (file, unit) = (&self.files["ramp"], &shader.ramp);
         registers(
             file,
             &[
-                ("sky", Some(packed(unit.flat.sky))),
-                ("far", Some(packed(unit.flat.far))),
-                ("side", Some(packed(unit.flat.side))),
-                ("ramp_exponent", Some(unit.ramp.exponent.into())),
-                ("ramp_gain", unit.ramp.gain.raw()),
+                ("ramp_exponent", Some(unit.exponent.into())),
+                ("ramp_gain", unit.gain.raw()),
+                ("ramp_segments", Some(unit.segments.len() as i64)),
             ],
         )?;
-        if let Some(light) = &unit.light {
-            let [x, y, z] = light.toward.map(Readout::raw);
-            let light = [("light_x", x), ("light_y", y), ("light_z", z)];
-            registers(file, &light)?;
-        }
+        let mut line = wires(world, file)?;
+        unit.run(&mut line);
+        compare(file, &line, chain)?;
+
+        let (file, unit) = (&self.files["mixer"], &shader.mixer);
+        registers(file, &[("shaded", Some(shader.light.is_some().into()))])?;
+        let mut line = wires(world, file)?;
+        unit.run(&mut line);
+        compare(file, &line, chain)?;
+
+        let (file, unit) = (&self.files["pixel"], &shader.pixel);
+        registers(
+            file,
+            &[
+                ("sky", Some(packed(unit.sky))),
+                ("out_of_range", Some(packed(unit.out_of_range))),
+                ("side", Some(packed(unit.side))),
+            ],
+        )?;
         let mut line = wires(world, file)?;
         unit.run(&mut line);
         compare(file, &line, chain)
@@ -272,8 +315,8 @@ fn wires<W: Complete>(world: &W, file: &File) -> Result<Line<W>, String> {
             let Some(bits) = row[at] else { continue };
             let refused = || format!("{} row {n}: {}", file.name, column.name);
             macro_rules! load {
-                ($wire:ident, $class:ident, $register:ident) => {
-                    line.$wire[n] = Load::load_raw(bits, world.$class(Register::$register))
+                ($wire:ident $([$channel:literal])?, $class:ident, $register:ident) => {
+                    line.$wire[n]$([$channel])? = Load::load_raw(bits, world.$class(Register::$register))
                         .ok_or_else(refused)?
                 };
             }
@@ -287,6 +330,13 @@ fn wires<W: Complete>(world: &W, file: &File) -> Result<Line<W>, String> {
                 "surface" => load!(surface, height, Surface),
                 "slope_x" => load!(slope_x, height, SlopeX),
                 "slope_z" => load!(slope_z, height, SlopeZ),
+                "shade" => load!(shade, tone, Shade),
+                "albedo_red" => load!(albedo[0], tone, Channel),
+                "albedo_green" => load!(albedo[1], tone, Channel),
+                "albedo_blue" => load!(albedo[2], tone, Channel),
+                "lit_red" => load!(lit[0], tone, Channel),
+                "lit_green" => load!(lit[1], tone, Channel),
+                "lit_blue" => load!(lit[2], tone, Channel),
                 "entry" => line.entry[n] = *ENTRIES.get(bits as usize).ok_or_else(refused)?,
                 "hit" => line.hit[n] = *HITS.get(bits as usize).ok_or_else(refused)?,
                 other => return Err(format!("{}: {other}", file.name)),
@@ -301,10 +351,10 @@ fn wires<W: Complete>(world: &W, file: &File) -> Result<Line<W>, String> {
 fn compare<W: Complete>(file: &File, line: &Line<W>, chain: &Chain) -> Result<(), String> {
     for (at, column) in file.columns.iter().enumerate().filter(|(_, c)| c.way == "out") {
         for (n, row) in file.rows.iter().enumerate() {
-            let met = if file.name == "divider.mem" {
-                line.entry[n] == Entry::Met
-            } else {
-                matches!(line.hit[n], Hit::Surface | Hit::Side)
+            let met = match file.name.as_str() {
+                "divider.mem" => line.entry[n] == Entry::Met,
+                "light.mem" | "ramp.mem" | "mixer.mem" => line.hit[n] == Hit::Surface,
+                _ => matches!(line.hit[n], Hit::Surface | Hit::Side),
             };
             let expected = match column.name.as_str() {
                 "entry" => Some(line.entry[n] as i64),
@@ -318,6 +368,13 @@ fn compare<W: Complete>(file: &File, line: &Line<W>, chain: &Chain) -> Result<()
                 "surface" => line.surface[n].raw(),
                 "slope_x" => line.slope_x[n].raw(),
                 "slope_z" => line.slope_z[n].raw(),
+                "shade" => line.shade[n].raw(),
+                "albedo_red" => line.albedo[n][0].raw(),
+                "albedo_green" => line.albedo[n][1].raw(),
+                "albedo_blue" => line.albedo[n][2].raw(),
+                "lit_red" => line.lit[n][0].raw(),
+                "lit_green" => line.lit[n][1].raw(),
+                "lit_blue" => line.lit[n][2].raw(),
                 other => return Err(format!("{}: {other}", file.name)),
             };
             if row[at] != expected {

@@ -72,8 +72,8 @@ pub fn check<W: Complete>(
     }
     for (at, segment) in units.shader.ramp.segments.iter().enumerate() {
         for (channel, (start, rise)) in segment.iter().enumerate() {
-            same("ramp", at as i64, 2 * channel, start.raw())?;
-            same("ramp", at as i64, 2 * channel + 1, rise.raw())?;
+            same("ramp_segments", at as i64, 2 * channel, start.raw())?;
+            same("ramp_segments", at as i64, 2 * channel + 1, rise.raw())?;
         }
     }
     Ok(())

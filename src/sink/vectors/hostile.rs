@@ -277,18 +277,22 @@ impl<W: Complete> Hostile<W> {
         top.clamp(0, range(to).1.into()) as i64
     }
 
-    /// Inputs of the shader of height maps: heights from the lowest to the highest node, any
-    /// slopes.
-    pub fn shader(&mut self, units: &TerrainUnits<W>, pixels: u32) -> Line<W> {
+    /// An outcome, mostly a surface.
+    fn hit(&mut self) -> Hit {
+        match self.below(16) {
+            0 => Hit::Sky,
+            1 => Hit::Side,
+            2 => Hit::Far,
+            _ => Hit::Surface,
+        }
+    }
+
+    /// Inputs of light and ramp: any slopes, heights from the lowest to the highest node.
+    pub fn surface(&mut self, units: &TerrainUnits<W>, pixels: u32) -> Line<W> {
         let mut line = self.line(pixels);
         let highest = self.highest(units);
         for at in 0..line.len() {
-            line.hit[at] = match self.below(16) {
-                0 => Hit::Sky,
-                1 => Hit::Side,
-                2 => Hit::Far,
-                _ => Hit::Surface,
-            };
+            line.hit[at] = self.hit();
             let height = self.number(0, highest);
             line.surface[at] = self.height(Register::Surface, height);
             let (low, high) = range(self.fixed(Register::SlopeX));
@@ -299,7 +303,38 @@ impl<W: Complete> Hostile<W> {
         line
     }
 
-    /// Inputs of the shader of planes: any place that the divider can give, any denominator that
+    /// Inputs of the mixer, and of the pixel behind it: any albedo, often a byte or half a level
+    /// from one, under any shade, often none or full. They are drawn from a source of their own, so
+    /// that the cases of other units do not depend on them.
+    pub fn colors(&self, pixels: u32) -> Line<W> {
+        let mut own = Self::new(self.world, mix(self.seed, !self.drawn));
+        let mut line = own.line(pixels);
+        for at in 0..line.len() {
+            line.hit[at] = own.hit();
+            line.albedo[at] = std::array::from_fn(|_| own.tone(Register::Channel, 255));
+            line.shade[at] = own.tone(Register::Shade, 1);
+        }
+        line
+    }
+
+    /// A tone from zero to a whole number: anywhere, at the ends, at a multiple of a half or a bit
+    /// beside it.
+    fn tone(&mut self, register: Register, whole: i64) -> W::Tone {
+        let fixed = self.fixed(register);
+        let one = 1_i64 << fixed.point;
+        let most = whole.saturating_mul(one).min(range(fixed).1);
+        let bits = match self.below(4) {
+            0 => self.number(0, most),
+            1 => (one / 2).saturating_mul(self.within(0, 2 * whole)) + self.within(-1, 1),
+            2 => most,
+            _ => self.within(0, most),
+        };
+        let bits = bits.clamp(0, most);
+        let format = self.world.tone(register);
+        W::Tone::load_raw(bits, format).unwrap_or(W::Tone::zero(format))
+    }
+
+    /// Inputs of the checker: any place that the divider can give, any denominator that
     /// goes with it, often one where squares fade.
     pub fn checker(
         &mut self,

@@ -125,7 +125,7 @@ pub fn write<W: Complete>(
             heading(&format!("{name}_rise"), channel, "what it rises by over the segment"),
         ]
     });
-    let header = header("ramp", "segments of the ramp", "segment", columns.collect());
+    let header = header("ramp_segments", "segments of the ramp", "segment", columns.collect());
     memories.put(header, segments.len(), |at| {
         segments[at].iter().flat_map(|(start, rise)| [start.raw(), rise.raw()]).collect()
     })?;

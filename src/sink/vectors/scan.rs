@@ -2,7 +2,7 @@
 //! of their own, each set scanned over a small raster; a second file lists the sets.
 
 use super::Files;
-use super::bench::Bench;
+use super::bench;
 use super::hostile::{Hostile, RASTER};
 use super::text::{Coefficient, Heading, Sheet, Way, Written};
 use super::units::{Unit, projector};
@@ -25,7 +25,7 @@ impl<'a, W: Complete> Scan<'a, W> {
     /// Begins both files.
     pub fn begin(files: &Files<'a>, setup: &Setup<W>) -> Result<Self, SinkError> {
         let unit = projector(&setup.world, &setup.projector);
-        let mut header = Bench::header(files, &setup.world, &unit);
+        let mut header = bench::header(files, &setup.world, &unit);
         header.columns.insert(
             0,
             Heading {

@@ -17,10 +17,8 @@ use crate::word::{Complete, Ratio, Readout, Register, World};
 
 /// The file of a unit.
 pub struct Unit<'a, W: World> {
-    /// Name, and stem of the file.
+    /// Name: stem of the file, and of the unit's page in docs/units.
     pub stem: &'static str,
-    /// Page of the unit in docs/units.
-    pub page: &'static str,
     /// What the unit is.
     pub holds: &'static str,
     /// Registers whose formats and equations the header gives.
@@ -64,7 +62,6 @@ pub fn projector<'a, W: Complete>(world: &W, unit: &Projector<W>) -> Unit<'a, W>
     }
     Unit {
         stem: "projector",
-        page: "projector",
         holds: "view vector and denominator of a pixel by additions",
         registers: &[Register::ViewX, Register::ViewY, Register::ViewZ, Register::Denominator],
         coefficients,
@@ -106,7 +103,6 @@ pub fn divider<'a, W: Complete>(world: &W, unit: &Divider<W>) -> Unit<'a, W> {
     ]);
     Unit {
         stem: "divider",
-        page: "divider",
         holds: "where the ray meets a plane: one ratio per axis",
         registers: &[R::ViewX, R::ViewZ, R::Denominator, R::GroundX, R::GroundZ],
         coefficients: vec![
@@ -192,7 +188,6 @@ pub fn stepper<'a, W: Complete>(
     ]);
     Unit {
         stem: "stepper",
-        page: "stepper",
         holds: "the first sample of a ray under the surface",
         registers: &[
             R::ViewX,
@@ -250,7 +245,6 @@ pub fn interpolator<'a, W: Complete>(world: &W, unit: &Interpolator<W>) -> Unit<
     ]);
     Unit {
         stem: "interpolator",
-        page: "interpolator",
         holds: "surface height and slopes at a place",
         registers: &[
             R::GroundX,

@@ -107,6 +107,11 @@ pub fn is_on_surface<W: World>(line: &Line<W>, at: usize) -> bool {
     matches!(line.hit[at], Hit::Surface | Hit::Side)
 }
 
+/// Whether the stepper has met the surface, which is lit.
+pub fn is_lit<W: World>(line: &Line<W>, at: usize) -> bool {
+    line.hit[at] == Hit::Surface
+}
+
 /// A wire of the world by its register and its name on the line, where a condition holds.
 macro_rules! wire {
     ($world:expr, $way:ident $register:ident $field:ident $meaning:literal $(if $when:path)?) => {

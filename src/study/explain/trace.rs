@@ -191,12 +191,16 @@ impl Walk<'_> {
         trace.read(Register::SlopeX, "slope, x", line.slope_x[0]);
         trace.read(Register::SlopeZ, "slope, z", line.slope_z[0]);
         if trace.hit == Hit::Surface {
-            let tones = units.shader.tones(line.surface[0], line.slope_x[0], line.slope_z[0], site);
-            trace.read(Register::Ramp, "place on the ramp", tones.ramp);
-            if let Some(shade) = tones.shade {
-                trace.read(Register::Shade, "light", shade);
+            let shader = &units.shader;
+            trace.unit("ramp");
+            let place = shader.ramp.place(line.surface[0], site);
+            trace.read(Register::Ramp, "place on the ramp", place);
+            if shader.light.is_some() {
+                trace.unit("light");
+                trace.read(Register::Shade, "light", line.shade[0]);
             }
-            for (channel, name) in tones.channels.into_iter().zip(["red", "green", "blue"]) {
+            trace.unit("mixer");
+            for (channel, name) in line.lit[0].into_iter().zip(["red", "green", "blue"]) {
                 trace.read(Register::Channel, name, channel);
             }
         }

@@ -1,0 +1,71 @@
+//! The light: how much of its light a surface with these slopes reflects.
+//!
+//! *In hardware*: the normal (slopes and one) is shifted until its largest component is below one,
+//! squared and summed, normalised by a reciprocal-square-root table, and multiplied with the
+//! direction of the light (equations 23 to 25 of docs/mathematics.md). Part of the
+//! [shader](super::shader); left out where the ambient share is all there is.
+//!
+//! | wire in | wire out |
+//! |---|---|
+//! | `hit`, `slope_x`, `slope_z` | `shade` |
+//!
+//! *Cycles*: one pixel per cycle. *Never*: divides.
+
+use std::sync::Arc;
+
+use super::Line;
+use crate::frame::Hit;
+use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Word, World};
+
+/// Registers of the light.
+#[derive(Clone, Debug)]
+pub struct Light<W: World> {
+    /// Direction towards the light in the frame of slopes, times the diffuse share.
+    pub toward: [W::Tone; 3],
+    /// The ambient share.
+    pub ambient: W::Tone,
+    /// One.
+    pub one: W::Tone,
+    /// Reciprocal square roots of `t / 2^log2`, `0 ≤ t ≤ 4 · 2^log2`.
+    pub rsqrt: Arc<Vec<W::Tone>>,
+    /// Table entries per unit, as a power of two.
+    pub rsqrt_log2: u32,
+    /// Format of the scaled normal.
+    pub normal_format: <W::Tone as Word>::Format,
+}
+
+impl<W: Shading> Light<W> {
+    /// Drives `shade` of one line, where the surface is met.
+    pub fn run(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            if line.hit[i] == Hit::Surface {
+                let site = Site::pixel(line.number, line.column[i]);
+                line.shade[i] = self.shade(line.slope_x[i], line.slope_z[i], site);
+            }
+        }
+    }
+
+    /// Ambient plus diffuse light, at most one (equations 23 to 25).
+    #[inline(always)]
+    pub fn shade(&self, slope_x: W::Height, slope_z: W::Height, site: Site) -> W::Tone {
+        let site = site.at(Register::Normal);
+        // Slopes below one share the exponent of the vertical component, which is one.
+        let leading = slope_x.leading_one().max(slope_z.leading_one()).max(0);
+        let exponent = -(leading + 1);
+        let x = slope_x.rescale(exponent, self.normal_format, site);
+        let z = slope_z.rescale(exponent, self.normal_format, site.step(1));
+        let y = self.one.shift_floor((leading + 1) as u32);
+        let square = x.multiply_two(x, z, z, site.step(4)) + y.multiply(y, site.step(5));
+        let entry = square.entry(self.rsqrt_log2).min(self.rsqrt.len() - 1);
+        let [light_x, light_y, light_z] = self.toward;
+        let site = site.at(Register::Shade);
+        let dot = x.multiply_two(light_x, z, light_z, site) + y.multiply(light_y, site.step(1));
+        if dot.sign() > 0 {
+            let shade = self.ambient + dot.multiply(self.rsqrt[entry], site.step(2));
+            // The table's rounding may lift full light above one by a bit.
+            if shade > self.one { self.one } else { shade }
+        } else {
+            self.ambient
+        }
+    }
+}

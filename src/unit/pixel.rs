@@ -1,0 +1,53 @@
+//! The pixel: the bytes that the frame takes.
+//!
+//! *In hardware*: the lit colour is rounded to the nearest bytes where the surface is met; a
+//! multiplexer takes a constant colour elsewhere. Last part of the [shader](super::shader); the
+//! [checker](super::checker) of planes ends in the same.
+//!
+//! | wire in | wire out |
+//! |---|---|
+//! | `hit`, `lit` | `color` |
+//!
+//! *Cycles*: one pixel per cycle. *Never*: multiplies or divides.
+
+use super::Line;
+use crate::frame::Hit;
+use crate::word::{Cell, World};
+
+/// Constant colours, of pixels that meet no lit surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pixel {
+    /// Nothing is met.
+    pub sky: [u8; 3],
+    /// The ground is out of range.
+    pub out_of_range: [u8; 3],
+    /// The side of the map.
+    pub side: [u8; 3],
+}
+
+impl Pixel {
+    /// Drives `color` of one line.
+    pub fn run<W: World>(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            line.color[i] =
+                self.constant(line.hit[i]).unwrap_or_else(|| Self::rounded(line.lit[i]));
+        }
+    }
+
+    /// The constant colour of an outcome; `None` where a surface is met, whose colour is computed.
+    #[inline(always)]
+    pub fn constant(&self, hit: Hit) -> Option<[u8; 3]> {
+        match hit {
+            Hit::Surface => None,
+            Hit::Sky => Some(self.sky),
+            Hit::Far => Some(self.out_of_range),
+            Hit::Side => Some(self.side),
+        }
+    }
+
+    /// The nearest bytes of a colour, ties upward.
+    #[inline(always)]
+    pub fn rounded<T: Cell>(color: [T; 3]) -> [u8; 3] {
+        color.map(|channel| channel.nearest().clamp(0, 255) as u8)
+    }
+}

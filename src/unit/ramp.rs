@@ -1,0 +1,68 @@
+//! The ramp: the colour of the ground by its height, before it is lit.
+//!
+//! *In hardware*: the height's place on the ramp chooses a segment of a table and mixes the two
+//! colours at its ends (equation 26 of docs/mathematics.md). Part of the [shader](super::shader).
+//!
+//! | wire in | wire out |
+//! |---|---|
+//! | `hit`, `surface` | `albedo` |
+//!
+//! *Cycles*: one pixel per cycle. *Never*: divides.
+
+use super::Line;
+use crate::frame::Hit;
+use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Word, World};
+
+/// Registers of the ramp.
+#[derive(Clone, Debug)]
+pub struct Ramp<W: World> {
+    /// Heights, which registers hold above the lowest node, are shifted by this into `[0, 1)`.
+    pub exponent: i32,
+    /// Segments per shifted height.
+    pub gain: W::Tone,
+    /// Start and rise of every segment, by channel.
+    pub segments: Vec<Segment<W::Tone>>,
+    /// Format of the place on the ramp.
+    pub format: <W::Tone as Word>::Format,
+}
+
+/// Start and rise of a ramp segment, by channel.
+pub type Segment<T> = [(T, T); 3];
+
+impl<W: Shading> Ramp<W> {
+    /// Drives `albedo` of one line, where the surface is met.
+    pub fn run(&self, line: &mut Line<W>) {
+        for i in 0..line.len() {
+            if line.hit[i] == Hit::Surface {
+                let site = Site::pixel(line.number, line.column[i]);
+                line.albedo[i] = self.color(self.place(line.surface[i], site), site);
+            }
+        }
+    }
+
+    /// Place on the ramp in segments (equation 26).
+    #[inline(always)]
+    pub fn place(&self, surface: W::Height, site: Site) -> W::Tone {
+        let site = site.at(Register::Ramp);
+        let height: W::Tone = surface.rescale(self.exponent, self.format, site);
+        height.multiply(self.gain, site.step(1))
+    }
+
+    /// The colour there, channels in `0 ..= 255`.
+    #[inline(always)]
+    pub fn color(&self, place: W::Tone, site: Site) -> [W::Tone; 3] {
+        let last = self.segments.len() as i32 - 1;
+        let segment = place.cell().clamp(0, last);
+        // The end of the ramp is the end of its last segment.
+        let inside = if place.cell() > last { None } else { Some(place.fraction()) };
+        let segment = &self.segments[segment as usize];
+        std::array::from_fn(|at| {
+            let (start, rise) = segment[at];
+            let site = site.at(Register::Channel).step(8 + at as u32);
+            match inside {
+                Some(fraction) => start + rise.multiply(fraction, site),
+                None => start + rise,
+            }
+        })
+    }
+}

@@ -15,8 +15,8 @@ use terraline::scene::load;
 use terraline::setup::{Back, Memory, Setup};
 use terraline::unit::Line;
 use terraline::unit::checker::Checker;
-use terraline::unit::color::Flat;
 use terraline::unit::line::Entry;
+use terraline::unit::pixel::Pixel;
 use terraline::word::stock::{Narrow, Wide};
 use terraline::word::{Cell, Lane, Multiply, Register, Site, Word};
 use terraline_hdl::Model;
@@ -26,8 +26,8 @@ const TAG: u64 = 0xffff;
 /// Drives the coefficient ports.
 fn load_coefficients<W: Stock>(rtl: &mut Model, checker: &Checker<W>) {
     let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
-    set("sky_color", packed(checker.flat.sky) as i64);
-    set("far_color", packed(checker.flat.far) as i64);
+    set("sky_color", packed(checker.pixel.sky) as i64);
+    set("far_color", packed(checker.pixel.out_of_range) as i64);
     for (at, channel) in ["red", "green", "blue"].into_iter().enumerate() {
         set(&format!("mean_{channel}"), bits(checker.mean[at]));
         set(&format!("swing_{channel}"), bits(checker.swing[at]));
@@ -142,9 +142,9 @@ fn hostile_checker<W: Stock>(world: W, random: &mut Random) -> (Checker<W>, i64)
     let byte = |random: &mut Random| [0, 255, random.within(0, 255)][random.within(0, 2) as usize];
     let mut color = || [byte(random), byte(random), byte(random)];
     let (even, odd) = (color(), color());
-    let flat = Flat {
+    let pixel = Pixel {
         sky: color().map(|byte| byte as u8),
-        far: color().map(|byte| byte as u8),
+        out_of_range: color().map(|byte| byte as u8),
         side: [0; 3],
     };
     let half = |levels: i64| word(levels * (one / 2));
@@ -170,7 +170,7 @@ fn hostile_checker<W: Stock>(world: W, random: &mut Random) -> (Checker<W>, i64)
         _ => random.within(one, 2 * one),
     };
     let checker = Checker {
-        flat,
+        pixel,
         mean: std::array::from_fn(|at| half(even[at] + odd[at])),
         swing: std::array::from_fn(|at| half(even[at] - odd[at])),
         contrast_exponent: exponent,

@@ -17,10 +17,13 @@ use terraline::processor::Processor;
 use terraline::scene::load;
 use terraline::setup::{Back, Memory, Setup};
 use terraline::unit::Line;
-use terraline::unit::color::Flat;
-use terraline::unit::shader::{Light, Ramp, TerrainShader};
+use terraline::unit::light::Light;
+use terraline::unit::mixer::Mixer;
+use terraline::unit::pixel::Pixel;
+use terraline::unit::ramp::Ramp;
+use terraline::unit::shader::Shader;
 use terraline::word::stock::{Narrow, Wide};
-use terraline::word::{Cell, Lane, Register, Site};
+use terraline::word::{Cell, Lane, Register, World as _};
 use terraline_hdl::Model;
 
 /// Entries per unit of the table, as a power of two.
@@ -28,11 +31,11 @@ const RSQRT_LOG2: u32 = 10;
 const TAG: u64 = 0xffff;
 
 /// Drives the coefficient ports and fills the tables.
-fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &TerrainShader<W>) {
+fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &Shader<W>) {
     let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
-    set("sky_color", packed(shader.flat.sky) as i64);
-    set("far_color", packed(shader.flat.far) as i64);
-    set("side_color", packed(shader.flat.side) as i64);
+    set("sky_color", packed(shader.pixel.sky) as i64);
+    set("far_color", packed(shader.pixel.out_of_range) as i64);
+    set("side_color", packed(shader.pixel.side) as i64);
     set("lit", shader.light.is_some().into());
     if let Some(light) = &shader.light {
         assert_eq!(light.rsqrt_log2, RSQRT_LOG2);
@@ -162,7 +165,7 @@ fn real_frames_wide() {
 }
 
 /// Coefficients anywhere in their ranges.
-fn hostile_shader<W: Stock>(world: W, random: &mut Random) -> TerrainShader<W> {
+fn hostile_shader<W: Stock>(world: W, random: &mut Random) -> Shader<W> {
     let one = 1_i64 << W::Tone::FRACTION;
     let toward = |random: &mut Random| match random.within(0, 5) {
         0 => one,
@@ -197,9 +200,12 @@ fn hostile_shader<W: Stock>(world: W, random: &mut Random) -> TerrainShader<W> {
         })
         .collect();
     let exponents = [(-128, 127), (-70, 30), (-12, 0), (0, 22)][random.within(0, 3) as usize];
-    TerrainShader {
-        flat: Flat { sky: bytes(random), far: bytes(random), side: bytes(random) },
-        light: random.is(230).then_some(light),
+    let pixel = Pixel { sky: bytes(random), out_of_range: bytes(random), side: bytes(random) };
+    let shaded = random.is(230);
+    Shader {
+        light: shaded.then_some(light),
+        mixer: Mixer { shaded },
+        pixel,
         ramp: Ramp {
             exponent: random.within(exponents.0, exponents.1) as i32,
             gain: word(match random.within(0, 5) {
@@ -237,16 +243,9 @@ fn hostile_height<W: Stock>(exponent: i32, random: &mut Random) -> i64 {
 
 /// Whether a channel is so near to half a level that an error in the last bit of light or place,
 /// times a colour, may move it to the other byte.
-fn is_near_rounding<W: Stock>(
-    shader: &TerrainShader<W>,
-    line: &Line<W>,
-    i: usize,
-    within: i64,
-) -> bool {
+fn is_near_rounding<W: Stock>(lit: [W::Tone; 3], within: i64) -> bool {
     let half = 1_i64 << (W::Tone::FRACTION - 1);
-    let site = Site::pixel(0, 0);
-    let tones = shader.tones(line.surface[i], line.slope_x[i], line.slope_z[i], site);
-    tones.channels.iter().any(|&channel| (bits(channel.fraction()) - half).abs() < within)
+    lit.iter().any(|&channel| (bits(channel.fraction()) - half).abs() < within)
 }
 
 fn hostile<W: Stock>(world: W, seed: u64) {
@@ -257,6 +256,7 @@ fn hostile<W: Stock>(world: W, seed: u64) {
         let shader = hostile_shader(world, &mut random);
         load_coefficients(&mut rtl, &shader);
         let mut line = Line::new(&world, 0..ITEMS);
+        let mut tried = Line::new(&world, [0]);
         let flat = random.within(0, 1) * 3;
         for i in 0..line.len() {
             // Every other set of items is mostly surface.
@@ -268,17 +268,21 @@ fn hostile<W: Stock>(world: W, seed: u64) {
             };
             // Last bits show where a channel is about to round the other way.
             let (within, trials) = [(1, 600), (16, 200), (256, 200)][random.within(0, 2) as usize];
+            tried.hit[0] = line.hit[i];
             for _ in 0..trials {
-                line.surface[i] = word(match line.hit[i] {
+                tried.surface[0] = word(match line.hit[i] {
                     Hit::Surface => hostile_height::<W>(shader.ramp.exponent, &mut random),
                     _ => random.word(W::WIDTH),
                 });
-                line.slope_x[i] = word(random.word(W::WIDTH));
-                line.slope_z[i] = word(random.word(W::WIDTH));
-                if line.hit[i] != Hit::Surface || is_near_rounding(&shader, &line, i, within) {
+                tried.slope_x[0] = word(random.word(W::WIDTH));
+                tried.slope_z[0] = word(random.word(W::WIDTH));
+                shader.run(&mut tried);
+                if line.hit[i] != Hit::Surface || is_near_rounding::<W>(tried.lit[0], within) {
                     break;
                 }
             }
+            line.surface[i] = tried.surface[0];
+            (line.slope_x[i], line.slope_z[i]) = (tried.slope_x[0], tried.slope_z[0]);
         }
         shader.run(&mut line);
         compare(&mut rtl, &line, &mut random);

@@ -12,7 +12,7 @@
 //! to the one in which the frame takes the last pixel.
 #![deny(clippy::float_arithmetic)]
 
-use crate::scene::{Machine, RatioForm};
+use crate::scene::{Hardware, RatioForm};
 use crate::setup::table::{
     DIVIDER_ENDS, KERNEL_LATENCY, LERP_LATENCY, RAY_END, RAY_START, SHADER_LATENCY, SLOPE_LATENCY,
 };
@@ -59,13 +59,13 @@ pub struct Chain {
 
 impl Chain {
     /// The chain of a set-up in a machine. `idle` units pass items on in one cycle.
-    pub fn new<W: Complete>(setup: &Setup<W>, machine: &Machine, idle: bool) -> Self {
-        let memory_latency = machine.memory_latency;
+    pub fn new<W: Complete>(setup: &Setup<W>, hardware: &Hardware, idle: bool) -> Self {
+        let memory_latency = hardware.memory_latency;
         let mut stages = vec![Stage { name: "projector", latency: 1, depth: 2 }];
         let mut serial = None;
         if let Some(divider) = &setup.divider {
             let cycles = divider.bits + DIVIDER_ENDS;
-            match machine.ratio {
+            match hardware.ratio {
                 RatioForm::Array => {
                     stages.push(Stage { name: "divider", latency: cycles, depth: cycles + 1 });
                 }

@@ -2,7 +2,7 @@
 //! emulator's set-up. The module `registers` of the RTL is generated from this list.
 
 use terraline::frame::Hit;
-use terraline::scene::Machine;
+use terraline::scene::Hardware;
 use terraline::setup::{Back, Setup, TerrainUnits};
 
 use terraline::unit::checker::Checker;
@@ -153,9 +153,9 @@ fn exponent(value: i32) -> i64 {
 }
 
 /// What a set-up loads into the coefficient registers of a machine.
-pub fn values<W: Complete>(setup: &Setup<W>, machine: &Machine) -> Values {
+pub fn values<W: Complete>(setup: &Setup<W>, hardware: &Hardware) -> Values {
     let mut out = Values::default();
-    out.set("memory_latency", machine.memory_latency);
+    out.set("memory_latency", hardware.memory_latency);
     out.set("columns", setup.columns);
     out.set("lines", setup.lines);
     let projector = &setup.projector;

@@ -4,7 +4,7 @@
 use terraline::clock::{Chain, Clock, Sink};
 use terraline::frame::Hit;
 use terraline::processor::Processor;
-use terraline::scene::Machine as Parameters;
+use terraline::scene::Hardware as Parameters;
 use terraline::setup::{Back, Setup};
 use terraline::unit::Line;
 use terraline::unit::line::Entry;

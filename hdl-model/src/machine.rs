@@ -2,7 +2,7 @@
 //! between the units in which cycle.
 
 use terraline::clock::Sink;
-use terraline::scene::{Machine as Parameters, RatioForm};
+use terraline::scene::{Hardware as Parameters, RatioForm};
 use terraline::setup::{Back, Setup, TerrainUnits};
 use terraline::unit::height_memory::Edge;
 use terraline::unit::interpolator::Form;

@@ -5,13 +5,12 @@ use serde::Serialize;
 
 use super::error::Sample;
 use crate::clock::{Chain, Clock};
-use crate::engine::InFixedWorld;
-use crate::fast::enter::Enterable;
+use crate::engine::{Machine, Memories, WithSetup};
 use crate::frame::Hit;
 use crate::plan::Plan;
 use crate::processor::{self, Processor};
 use crate::scene::Scene;
-use crate::setup::{Back, Memory, Setup, SetupError};
+use crate::setup::{Back, Setup, SetupError};
 use crate::unit::Line;
 use crate::unit::divider::Method;
 use crate::unit::interpolator::Form;
@@ -66,17 +65,23 @@ pub struct Cost {
     pub units: Vec<UnitCost>,
 }
 
-/// The measurement, to be run in a fixed world.
-#[derive(Clone, Copy, Debug)]
-pub struct Measure<'a> {
-    /// Scene.
-    pub scene: &'a Scene,
-    /// Its plan.
-    pub plan: &'a Plan,
-    /// Lines whose cycles are counted.
-    pub cycles: &'a Sample,
-    /// Lines whose operations are counted.
-    pub operations: &'a Sample,
+impl Machine<'_> {
+    /// The cost of a frame: cycles from the lines of one sample, operations from those of another,
+    /// which may have none.
+    ///
+    /// # Errors
+    /// If the scene cannot be set up to have its operations counted.
+    pub fn cost(&self, cycles: &Sample, operations: &Sample) -> Result<Cost, SetupError> {
+        self.run(Measure { scene: self.scene(), plan: self.plan(), cycles, operations })
+    }
+}
+
+/// The measurement in a fixed world.
+struct Measure<'a> {
+    scene: &'a Scene,
+    plan: &'a Plan,
+    cycles: &'a Sample,
+    operations: &'a Sample,
 }
 
 /// Reads of a pixel.
@@ -86,22 +91,20 @@ struct Reads {
     table: u64,
 }
 
-impl InFixedWorld for Measure<'_> {
+impl WithSetup for Measure<'_> {
     type Output = Result<Cost, SetupError>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-        let memory = Memory::new(&world, self.scene, self.plan)?;
-        let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
-        let chain = Chain::new(&setup, &self.scene.machine, self.plan.fitted.idle);
+    fn run<W: Complete>(self, setup: &Setup<W>) -> Self::Output {
+        let chain = Chain::new(setup, &self.scene.machine, self.plan.fitted.idle);
         let mut clock = Clock::new(chain);
         let mut reads = [Reads::default(); 3];
-        let mut line = Processor::new(&setup).wires();
-        processor::run_lines(&setup, &mut line, self.cycles.lines.iter().copied(), |line| {
+        let mut line = Processor::new(setup).wires();
+        processor::run_lines(setup, &mut line, self.cycles.lines.iter().copied(), |line| {
             clock.take_line(line, |_, _| {});
-            count_reads(&setup, line, &mut reads);
+            count_reads(setup, line, &mut reads);
         });
-        let operations = self.operations(Tally(world))?;
-        Ok(self.report(&setup, &clock, reads, &operations))
+        let operations = self.operations(Tally(setup.world))?;
+        Ok(self.report(setup, &clock, reads, &operations))
     }
 }
 
@@ -111,8 +114,10 @@ impl Measure<'_> {
         &self,
         world: W,
     ) -> Result<Vec<(&'static str, Operations)>, SetupError> {
-        let memory = Memory::new(&world, self.scene, self.plan)?;
-        let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
+        if self.operations.is_empty() {
+            return Ok(Vec::new());
+        }
+        let setup = Memories::default().set_up(world, self.scene, self.plan)?;
         let mut start = setup.projector.first_line();
         let mut line = Processor::new(&setup).wires();
         let mut totals: Vec<(&'static str, Operations)> = Vec::new();

@@ -31,7 +31,7 @@ impl<'a> Timing<'a> {
             heading("line".into(), PLACE, "scan line from the top"),
             heading("column".into(), PLACE, "column from the left"),
         ];
-        let memory_latency = files.vectors.scene.machine.memory_latency;
+        let memory_latency = files.vectors.machine.scene().machine.memory_latency;
         let mut lines = vec![
             "page docs/cycles.md".into(),
             "equation 28".into(),

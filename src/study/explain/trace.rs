@@ -1,12 +1,9 @@
 //! What one number world says of one pixel, register by register.
 
-use crate::engine::InFixedWorld;
-use crate::fast::enter::Enterable;
+use crate::engine::WithSetup;
 use crate::frame::Hit;
-use crate::plan::Plan;
 use crate::processor;
-use crate::scene::Scene;
-use crate::setup::{Back, Memory, Setup, SetupError, TerrainUnits};
+use crate::setup::{Back, Setup, TerrainUnits};
 use crate::unit::Line;
 use crate::unit::divider::Method;
 use crate::unit::interpolator::{AT_THE_HIT, Form};
@@ -65,30 +62,23 @@ impl Trace {
 }
 
 /// One pixel to be walked in some world.
-pub(super) struct Walk<'a> {
-    pub scene: &'a Scene,
-    pub plan: &'a Plan,
+#[derive(Clone, Copy)]
+pub(super) struct Walk {
     pub column: u32,
     pub line: u32,
     /// Take the ray's position at this sample instead of the world's own hit.
     pub index: Option<u32>,
 }
 
-impl InFixedWorld for Walk<'_> {
-    type Output = Result<Trace, SetupError>;
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-        self.trace(world)
-    }
-}
+impl WithSetup for Walk {
+    type Output = Trace;
 
-impl Walk<'_> {
-    pub fn trace<W: Complete>(&self, world: W) -> Result<Trace, SetupError> {
-        let memory = Memory::new(&world, self.scene, self.plan)?;
-        let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
-        let mut line = Line::new(&world, [self.column]);
+    fn run<W: Complete>(self, setup: &Setup<W>) -> Trace {
+        let world = &setup.world;
+        let mut line = Line::new(world, [self.column]);
         // The units up to the entry first, then the rest on the same wires.
         let mut entered = line.clone();
-        let mut processor = processor::Processor::new(&setup);
+        let mut processor = processor::Processor::new(setup);
         for _ in 0..self.line {
             processor.skip_line();
         }
@@ -142,9 +132,11 @@ impl Walk<'_> {
                 }
             }
         }
-        Ok(trace)
+        trace
     }
+}
 
+impl Walk {
     fn terrain<W: Complete>(
         &self,
         units: &TerrainUnits<W>,

@@ -4,48 +4,29 @@
 mod support;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use terraline::engine::{FixedWorld, InFixedWorld, draw_by_lines};
-use terraline::fast::{self, enter::Enterable};
-use terraline::plan::Plan;
-use terraline::scene::Scene;
-use terraline::setup::{Memory, Setup};
+use terraline::engine::{Engine, Machine, Memories};
+use terraline::setup::Memory;
 use terraline::unit::height_memory::{Edge, HeightMemory};
 use terraline::unit::pyramid::Pyramid;
+use terraline::word::Load;
 use terraline::word::stock::{Height32, Narrow};
-use terraline::word::{Complete, Load};
-
-struct Frames<'a> {
-    criterion: &'a mut Criterion,
-    name: String,
-    scene: &'a Scene,
-    plan: &'a Plan,
-}
-
-impl InFixedWorld for Frames<'_> {
-    type Output = ();
-
-    fn run<W: Complete + Enterable>(self, world: W) {
-        let Self { criterion, name, scene, plan } = self;
-        let memory = Memory::new(&world, scene, plan).expect("the scene fits");
-        let setup = || Setup::new(world, scene, plan, memory.as_ref()).expect("the scene fits");
-        let mut group = criterion.benchmark_group(format!("frames/{name}"));
-        let pixels = u64::from(plan.geometry.columns) * u64::from(plan.geometry.lines);
-        group.sample_size(10).throughput(Throughput::Elements(pixels));
-        group.bench_function("fast", |b| b.iter(|| fast::render(&setup(), plan, false)));
-        group.bench_function("processor", |b| {
-            b.iter(|| draw_by_lines(&setup(), plan, false, |_| {}));
-        });
-        group.finish();
-    }
-}
 
 fn frames(criterion: &mut Criterion) {
     for size in [512, 1024] {
         for name in ["overview", "flight", "valley", "plane"] {
             let (scene, plan) = support::planned(name, size, size);
-            let world = FixedWorld::of(&scene, &plan).expect("a built-in scene has a world");
-            let name = format!("{name}/{size}");
-            world.run(Frames { criterion, name, scene: &scene, plan: &plan });
+            let memories = Memories::default();
+            let draw = |engine| {
+                let machine = Machine::new(&scene, &plan, &memories).expect("the scene fits");
+                machine.frame(engine, false).expect("the scene fits")
+            };
+            let mut group = criterion.benchmark_group(format!("frames/{name}/{size}"));
+            let pixels = u64::from(plan.geometry.columns) * u64::from(plan.geometry.lines);
+            group.sample_size(10).throughput(Throughput::Elements(pixels));
+            for engine in [Engine::Fast, Engine::Processor] {
+                group.bench_function(engine.name(), |b| b.iter(|| draw(engine)));
+            }
+            group.finish();
         }
     }
 }

@@ -4,13 +4,12 @@
 mod support;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use terraline::engine::FixedWorld;
+use terraline::engine::{FixedWorld, Memories};
 use terraline::fast::enter;
 use terraline::plan::Plan;
 use terraline::plan::formats::Formats;
 use terraline::processor::Processor;
 use terraline::scene::Scene;
-use terraline::setup::{Memory, Setup};
 use terraline::unit::divider::Method;
 use terraline::word::Complete;
 use terraline::word::real::Real;
@@ -21,8 +20,7 @@ const COLUMNS: u32 = 1024;
 const LINE: u32 = 600;
 
 fn units<W: Complete>(criterion: &mut Criterion, name: &str, world: W, scene: &Scene, plan: &Plan) {
-    let memory = Memory::new(&world, scene, plan).expect("the scene fits the world");
-    let setup = Setup::new(world, scene, plan, memory.as_ref()).expect("the scene fits the world");
+    let setup = Memories::default().set_up(world, scene, plan).expect("the scene fits the world");
     let mut processor = Processor::new(&setup);
     let mut line = processor.wires();
     for _ in 0..LINE {
@@ -58,8 +56,7 @@ fn worlds(criterion: &mut Criterion) {
 fn direct_entry(criterion: &mut Criterion) {
     let (scene, plan) = support::planned("overview", COLUMNS, COLUMNS);
     assert!(matches!(FixedWorld::of(&scene, &plan), Ok(FixedWorld::Narrow(_))));
-    let memory = Memory::new(&Narrow, &scene, &plan).expect("the scene fits");
-    let setup = Setup::new(Narrow, &scene, &plan, memory.as_ref()).expect("the scene fits");
+    let setup = Memories::default().set_up(Narrow, &scene, &plan).expect("the scene fits");
     let mut line = Processor::new(&setup).wires();
     let start = enter::line_start(&setup.projector, LINE);
     let mut group = criterion.benchmark_group("units/overview/narrow");

@@ -14,27 +14,25 @@
 //! - [`mod@unit`]: one file per hardware unit; each works on the wires of one scan line.
 //! - [`processor`] and [`fast`]: the two engines, equal in every bit; [`clock`] counts cycles.
 //! - [`oracle`]: every pixel in closed form, sharing no code with what it checks.
+//! - [`engine`]: a scene's machine, set up, to be drawn by any of them, and asked by studies.
 //! - [`study`], [`sink`], [`cli`]: errors and costs, files, commands.
 //! - `view` (feature `window`): the window.
 //!
 //! Draw a frame and ask what it is worth:
 //!
 //! ```
-//! use terraline::engine::{FixedWorld, draw_by_lines};
+//! use terraline::engine::{Engine, Machine, Memories};
 //! use terraline::plan::Plan;
-//! use terraline::setup::{Memory, Setup};
-//! use terraline::study::error::{ErrorReport, Sample, pixels};
-//! use terraline::word::stock::Narrow;
+//! use terraline::study::error::{ErrorReport, Sample};
 //!
 //! let scene = terraline::scene::load(Some("overview"), &["screen.size=[64, 48]".into()])?;
 //! let plan = Plan::new(&scene, None, false)?;
-//! let memory = Memory::new(&Narrow, &scene, &plan)?;
-//! let setup = Setup::new(Narrow, &scene, &plan, memory.as_ref())?;
-//! let frame = draw_by_lines(&setup, &plan, false, |_| {});
+//! let machine = Machine::new(&scene, &plan, &Memories::default())?;
+//! let frame = machine.frame(Engine::Fast, false)?;
 //! assert_eq!(frame.color.len(), 64 * 48);
 //!
 //! let sample = Sample::strips(&plan, 16, scene.seed);
-//! let errors = pixels(&scene, &plan, &FixedWorld::Narrow(Narrow), &sample)?;
+//! let errors = machine.errors(&sample)?;
 //! let report = ErrorReport::new(&sample, &errors, scene.unit_m);
 //! assert!(report.total_px.is_some_and(|spread| spread.median < 1.0 / 32.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -1,26 +1,15 @@
 //! From the wires of a line to the frame: the way back from words to `f64`.
 //!
-//! Both engines and the studies read their wires through here, so equal wires make equal frames.
+//! All engines and the studies read their wires through here, so equal wires make equal frames.
 
 use glam::DVec3;
 
-use crate::frame::{Buffers, Frame, Hit};
+use crate::frame::{Buffers, Frame, Giver, Hit, Pixel};
 use crate::plan::{Ground, Plan};
 use crate::unit::Line;
 use crate::word::{Open, Readout};
 
-/// What one pixel's wires say, in scene units.
-#[derive(Clone, Copy, Debug)]
-pub struct PixelReadout {
-    /// λ of `r_p = r_h + λ V`.
-    pub lambda: f64,
-    /// The ground point; y is the surface's height there.
-    pub point: DVec3,
-    /// Unit normal.
-    pub normal: DVec3,
-}
-
-/// Reads pixels of a plan's machine.
+/// Reads the wires of a plan's machine, in scene units.
 #[derive(Clone, Copy, Debug)]
 pub struct Reader<'a> {
     plan: &'a Plan,
@@ -33,7 +22,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Pixel `i` of a line that met something; `None` for sky and far.
-    pub fn pixel<W: Open>(&self, line: &Line<W>, i: usize) -> Option<PixelReadout> {
+    pub fn pixel<W: Open>(&self, line: &Line<W>, i: usize) -> Option<Pixel> {
         if !matches!(line.hit[i], Hit::Surface | Hit::Side) {
             return None;
         }
@@ -62,119 +51,31 @@ impl<'a> Reader<'a> {
             (away.y, along.y) = (0.0, 0.0);
         }
         let lambda = away.dot(along) / along.length_squared();
-        Some(PixelReadout { lambda, point, normal })
-    }
-}
-
-/// A frame under construction, line by line.
-#[derive(Debug)]
-pub struct FrameBuilder<'a> {
-    columns: usize,
-    lines: usize,
-    color: Vec<[u8; 3]>,
-    hit: Vec<Hit>,
-    buffers: Option<BufferBuilder<'a>>,
-}
-
-impl<'a> FrameBuilder<'a> {
-    /// An empty frame of a plan's size.
-    pub fn new(plan: &'a Plan, lines: usize, buffers: bool, trials: bool) -> Self {
-        let columns = plan.geometry.columns as usize;
-        Self {
-            columns,
-            lines,
-            color: Vec::with_capacity(columns * lines),
-            hit: Vec::with_capacity(columns * lines),
-            buffers: buffers.then(|| BufferBuilder::new(plan, lines, trials)),
-        }
+        Some(Pixel {
+            lambda,
+            ground_x: point.x,
+            ground_z: point.z,
+            height: point.y,
+            normal: normal.to_array(),
+            steps: if lambda.is_finite() { line.steps[i] } else { 0 },
+            trials: line.work[i].trials,
+        })
     }
 
-    /// The next line.
-    pub fn push<W: Open>(&mut self, line: &Line<W>) {
-        self.color.extend_from_slice(&line.color);
-        self.hit.extend_from_slice(&line.hit);
-        if let Some(buffers) = &mut self.buffers {
-            buffers.push(line);
-        }
-    }
-
-    /// Another builder's lines after these.
-    pub fn append(&mut self, other: FrameBuilder<'_>) {
-        self.color.extend(other.color);
-        self.hit.extend(other.hit);
-        if let (Some(to), Some(from)) = (&mut self.buffers, other.buffers) {
-            to.append(from);
-        }
-    }
-
-    /// The frame.
-    pub fn finish(self) -> Frame {
-        let Self { columns, lines, color, hit, buffers } = self;
-        Frame { columns, lines, color, hit, buffers: buffers.map(BufferBuilder::finish) }
-    }
-}
-
-/// The quantities behind a frame's colours under construction, line by line.
-#[derive(Debug)]
-pub struct BufferBuilder<'a> {
-    reader: Reader<'a>,
-    buffers: Buffers,
-}
-
-impl<'a> BufferBuilder<'a> {
-    /// Empty buffers for so many lines of a plan's width.
-    pub fn new(plan: &'a Plan, lines: usize, trials: bool) -> Self {
-        let pixels = plan.geometry.columns as usize * lines;
-        let buffers = Buffers {
-            lambda: Vec::with_capacity(pixels),
-            ground_x: Vec::with_capacity(pixels),
-            ground_z: Vec::with_capacity(pixels),
-            height: Vec::with_capacity(pixels),
-            normal: Vec::with_capacity(pixels),
-            steps: Vec::with_capacity(pixels),
-            trials: trials.then(|| Vec::with_capacity(pixels)),
-        };
-        Self { reader: Reader::new(plan), buffers }
-    }
-
-    /// The next line.
-    pub fn push<W: Open>(&mut self, line: &Line<W>) {
-        let buffers = &mut self.buffers;
+    /// Appends a line to buffers. Skip tests are counted on misses, too.
+    pub fn read<W: Open>(&self, line: &Line<W>, giver: Giver, buffers: &mut Buffers) {
         for i in 0..line.len() {
-            let pixel = self.reader.pixel(line, i).unwrap_or(PixelReadout {
-                lambda: f64::NAN,
-                point: DVec3::NAN,
-                normal: DVec3::NAN,
-            });
-            buffers.lambda.push(pixel.lambda);
-            buffers.ground_x.push(pixel.point.x);
-            buffers.ground_z.push(pixel.point.z);
-            buffers.height.push(pixel.point.y);
-            buffers.normal.push(pixel.normal.to_array());
-            let met = pixel.lambda.is_finite();
-            buffers.steps.push(if met { line.steps[i] } else { 0 });
-            if let Some(trials) = &mut buffers.trials {
-                trials.push(line.work[i].trials);
-            }
+            let miss = || Pixel { trials: line.work[i].trials, ..Pixel::MISS };
+            buffers.push(self.pixel(line, i).unwrap_or_else(miss), giver);
         }
     }
 
-    /// Another builder's lines after these.
-    pub fn append(&mut self, other: BufferBuilder<'_>) {
-        let (to, from) = (&mut self.buffers, other.buffers);
-        to.lambda.extend(from.lambda);
-        to.ground_x.extend(from.ground_x);
-        to.ground_z.extend(from.ground_z);
-        to.height.extend(from.height);
-        to.normal.extend(from.normal);
-        to.steps.extend(from.steps);
-        if let (Some(to), Some(from)) = (&mut to.trials, from.trials) {
-            to.extend(from);
+    /// Appends a line of the processor to a frame that was made with room for it.
+    pub fn push<W: Open>(&self, line: &Line<W>, frame: &mut Frame) {
+        frame.color.extend_from_slice(&line.color);
+        frame.hit.extend_from_slice(&line.hit);
+        if let Some(buffers) = &mut frame.buffers {
+            self.read(line, Giver::Processor, buffers);
         }
-    }
-
-    /// The buffers.
-    pub fn finish(self) -> Buffers {
-        self.buffers
     }
 }

@@ -7,19 +7,18 @@ mod support;
 mod exact;
 
 use support::recipe::{Eye, recipes};
-use support::{SHAPES, builtin, runner};
-use terraline::engine::FixedWorld;
+use support::{SHAPES, builtin, machine, runner};
 use terraline::plan::Plan;
 use terraline::scene::{Deformation, Halvings, Scene, WordSize};
-use terraline::study::error::{ErrorReport, PixelError, Sample, Sheet, Spread, pixels};
+use terraline::study::error::{ErrorReport, PixelError, Sample, Sheet, Spread};
 
 fn errors(scene: &Scene, strips: u32) -> ErrorReport {
     let plan = support::plan(scene);
-    let world = FixedWorld::of(scene, &plan).expect("a world");
+    let machine = machine(scene, &plan).expect("a machine");
     let sample = Sample::strips(&plan, strips, scene.seed);
     let side = strips.min(plan.geometry.lines) as usize;
     assert_eq!(sample.lines.len(), side);
-    let pixels = pixels(scene, &plan, &world, &sample).expect("errors");
+    let pixels = machine.errors(&sample).expect("errors");
     let report = ErrorReport::new(&sample, &pixels, scene.unit_m);
     println!(
         "{} {}x{} {}: {} same sheet, {} silhouettes, total {:.6} {:.6} {:.6}, algorithm {:.6} \
@@ -27,7 +26,7 @@ fn errors(scene: &Scene, strips: u32) -> ErrorReport {
         scene.name,
         plan.geometry.columns,
         plan.geometry.lines,
-        world.name(),
+        machine.world().name(),
         report.same_sheet,
         report.silhouettes,
         report.total_px.expect("pixels").median,
@@ -137,8 +136,8 @@ fn random_scenes_keep_their_bounds() {
         }
         let scene = recipe.scene();
         let Ok(plan) = Plan::new(&scene, None, false) else { return Ok(()) };
-        let Ok(world) = FixedWorld::of(&scene, &plan) else { return Ok(()) };
-        if let Ok(found) = pixels(&scene, &plan, &world, &Sample::all(&plan)) {
+        let errors = machine(&scene, &plan).and_then(|machine| machine.errors(&Sample::all(&plan)));
+        if let Ok(found) = errors {
             all.lock().expect("one thread").extend(found);
         }
         Ok(())

@@ -8,12 +8,11 @@ use std::sync::Mutex;
 use proptest::prelude::*;
 use support::recipe::recipes;
 use support::{builtin, runner};
-use terraline::engine::FixedWorld;
 use terraline::plan::Plan;
 use terraline::scene::{Angles, Attitude, Scene, WordSize};
 use terraline::study::bounds;
 use terraline::study::error::Sample;
-use terraline::study::explain::{Explanation, explain, keeps_bounds};
+use terraline::study::explain::{Explanation, keeps_bounds};
 use terraline::word::Fixed;
 use terraline::word::format::mix;
 
@@ -85,11 +84,11 @@ const ENTRY: [&str; 3] = ["denominator", "entry_x", "entry_z"];
 
 fn measure(scene: &Scene, side: u32, measurements: &mut Measurements) {
     let plan = support::plan(scene);
-    let world = FixedWorld::of(scene, &plan).expect("a world");
+    let machine = support::machine(scene, &plan).expect("a machine");
     let sample = Sample::strips(&plan, side, scene.seed);
     for &line in &sample.lines {
         for &column in &sample.columns {
-            let explanation = explain(scene, &plan, &world, column, line).expect("a pixel");
+            let explanation = machine.explain(column, line).expect("a pixel");
             measurements.take(&scene.name, &explanation);
         }
     }
@@ -139,11 +138,11 @@ fn random_scenes_keep_their_bounds() {
     let result = runner(80).run(&strategy, |(recipe, pixels)| {
         let scene = recipe.scene();
         let Ok(plan) = Plan::new(&scene, None, false) else { return Ok(()) };
-        let Ok(world) = FixedWorld::of(&scene, &plan) else { return Ok(()) };
+        let Ok(machine) = support::machine(&scene, &plan) else { return Ok(()) };
         for (column, line) in pixels {
             let column = u32::from(column) % plan.geometry.columns;
             let line = u32::from(line) % plan.geometry.lines;
-            let Ok(explanation) = explain(&scene, &plan, &world, column, line) else { break };
+            let Ok(explanation) = machine.explain(column, line) else { break };
             measurements.lock().expect("one thread").take(&format!("{recipe:?}"), &explanation);
         }
         Ok(())
@@ -157,8 +156,8 @@ fn random_scenes_keep_their_bounds() {
 fn a_bound_that_is_too_small_fails() {
     let scene = builtin("flight", 1024, 1024);
     let plan = support::plan(&scene);
-    let world = FixedWorld::of(&scene, &plan).expect("a world");
-    let explanation = explain(&scene, &plan, &world, 700, 800).expect("a pixel");
+    let machine = support::machine(&scene, &plan).expect("a machine");
+    let explanation = machine.explain(700, 800).expect("a pixel");
     assert!(keeps_bounds(&explanation));
     let bounded = |row: &&terraline::study::explain::Row| row.bound.is_some();
     assert!(explanation.rows.iter().filter(bounded).count() >= 6);

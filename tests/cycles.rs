@@ -2,12 +2,11 @@
 //! counted by hand.
 
 use terraline::clock::{Chain, Clock, Sink};
-use terraline::engine::FixedWorld;
+use terraline::engine::{Machine, Memories};
 use terraline::plan::Plan;
 use terraline::processor::{self, Processor};
 use terraline::scene::{self, Scene};
-use terraline::setup::{Memory, Setup};
-use terraline::study::cost::{Cost, Measure};
+use terraline::study::cost::Cost;
 use terraline::study::error::Sample;
 use terraline::unit::interpolator::LERP_LATENCY;
 use terraline::unit::line::Work;
@@ -24,8 +23,7 @@ fn planned(name: &str, sets: &[&str]) -> (Scene, Plan) {
 /// The chain of a scene and the work of its pixels in scan order.
 fn chain_and_work(name: &str, sets: &[&str]) -> (Chain, Vec<Work>) {
     let (scene, plan) = planned(name, sets);
-    let memory = Memory::new(&Narrow, &scene, &plan).expect("memory");
-    let setup = Setup::new(Narrow, &scene, &plan, memory.as_ref()).expect("set-up");
+    let setup = Memories::default().set_up(Narrow, &scene, &plan).expect("set-up");
     let chain = Chain::new(&setup);
     let mut work = Vec::new();
     let mut line = Processor::new(&setup).wires();
@@ -146,9 +144,8 @@ fn a_rays_work_is_the_sum_of_its_parts() {
 fn cost(name: &str, sets: &[&str]) -> Cost {
     let (scene, plan) = planned(name, sets);
     let all = Sample::all(&plan);
-    let world = FixedWorld::of(&scene, &plan).expect("a world");
-    let measure = Measure { scene: &scene, plan: &plan, cycles: &all, operations: &all };
-    world.run(measure).expect("a cost")
+    let machine = Machine::new(&scene, &plan, &Memories::default()).expect("a machine");
+    machine.cost(&all, &all).expect("a cost")
 }
 
 #[test]
@@ -176,11 +173,10 @@ fn costs_that_can_be_counted_by_hand() {
 #[test]
 fn sampled_lines_estimate_the_frame() {
     let (scene, plan) = planned("flight", &["screen.size=[96, 96]"]);
-    let world = FixedWorld::of(&scene, &plan).expect("a world");
+    let machine = Machine::new(&scene, &plan, &Memories::default()).expect("a machine");
     let all = Sample::all(&plan);
     let some = Sample::whole_lines(&plan, 48, scene.seed);
-    let measure = |cycles| Measure { scene: &scene, plan: &plan, cycles, operations: &some };
-    let exact = world.run(measure(&all)).expect("a cost").cycles as f64;
-    let scaled = world.run(measure(&some)).expect("a cost").cycles as f64;
+    let exact = machine.cost(&all, &some).expect("a cost").cycles as f64;
+    let scaled = machine.cost(&some, &some).expect("a cost").cycles as f64;
     assert!((scaled / exact - 1.0).abs() < 0.05, "{scaled} for {exact}");
 }

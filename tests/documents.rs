@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use terraline::frame;
 use terraline::setup::table;
 use terraline::word::Register;
 
@@ -20,6 +21,11 @@ fn is_current(file: &str, text: &str) {
 #[test]
 fn the_register_page_is_generated_from_the_table() {
     is_current("docs/registers.md", &table::markdown());
+}
+
+#[test]
+fn the_page_of_buffers_is_generated_from_the_table() {
+    is_current("docs/buffers.md", &frame::markdown());
 }
 
 #[test]

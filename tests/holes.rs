@@ -6,8 +6,7 @@ mod files;
 mod support;
 
 use glam::DVec3;
-use support::{assert_same, both, count, draw_in_real, map, over, plan, terrain};
-use terraline::engine::FixedWorld;
+use support::{assert_same, both, count, draw_in_real, machine, map, over, plan, terrain};
 use terraline::frame::{Frame, Hit};
 use terraline::oracle::Oracle;
 use terraline::plan::Plan;
@@ -15,8 +14,7 @@ use terraline::scene::{
     Attitude, Deformation, Extent, HeightMap, Kernel, KernelShape, NoData, Outside, Scene,
     StepperMode, WordSize,
 };
-use terraline::study::error::{ErrorReport, Sample, pixels};
-use terraline::study::explain::explain;
+use terraline::study::error::{ErrorReport, Sample};
 
 const KERNELS: [(KernelShape, Deformation); 5] = [
     (KernelShape::Cosine, Deformation::None),
@@ -201,9 +199,8 @@ fn errors_near_holes_are_those_of_any_ground() {
         scene.camera.position = DVec3::new(30.0, 14.0, -6.0);
         scene.color.far = scene.color.sky;
         let plan = plan(&scene);
-        let world = FixedWorld::of(&scene, &plan).expect("a world");
         let sample = Sample::strips(&plan, 150, 3);
-        let errors = pixels(&scene, &plan, &world, &sample).expect("errors");
+        let errors = machine(&scene, &plan).and_then(|m| m.errors(&sample)).expect("errors");
         let report = ErrorReport::new(&sample, &errors, 1.0);
         let total = report.total_px.expect("pixels");
         println!("{shape:?} {deformation:?}: {report:?}");
@@ -235,8 +232,8 @@ fn explain_speaks_of_the_hole() {
         let place = |[x, y]: [f64; 2]| DVec3::new(x, y, 5.0);
         let scene = looking(flat(|i, j| (i, j) == (5, 5)), place(from), place(to));
         let plan = plan(&scene);
-        let world = FixedWorld::of(&scene, &plan).expect("a world");
-        explain(&scene, &plan, &world, 1, 1).expect("an explanation").hole
+        let machine = machine(&scene, &plan).expect("a machine");
+        machine.explain(1, 1).expect("an explanation").hole
     };
     assert_eq!(hole([2.0, 4.0], [3.0, 2.0]), None);
     assert!(hole([2.0, 4.0], [6.0, 1.0]).expect("a hole").contains("side"));

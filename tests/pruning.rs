@@ -3,7 +3,7 @@
 mod support;
 
 use glam::{DVec2, DVec3};
-use support::{assert_same, both, builtin, count, drawn, map, over, terrain};
+use support::{assert_same, both, builtin, count, drawn, machine, map, over, terrain};
 use terraline::engine::{FixedWorld, InFixedWorld};
 use terraline::fast::enter::Enterable;
 use terraline::frame::Hit;
@@ -12,7 +12,7 @@ use terraline::plan::units::{UnitPlan, units};
 use terraline::scene::{
     Angles, Attitude, Deformation, HeightMap, Kernel, KernelShape, Scene, StepperMode, WordSize,
 };
-use terraline::study::cost::{Cost, Measure};
+use terraline::study::cost::Cost;
 use terraline::study::error::Sample;
 use terraline::word::Complete;
 
@@ -211,8 +211,7 @@ fn described(scene: &Scene, plan: &Plan) -> Vec<UnitPlan> {
 
 fn cost(scene: &Scene, plan: &Plan) -> Cost {
     let all = Sample::all(plan);
-    let measure = Measure { scene, plan, cycles: &all, operations: &all };
-    FixedWorld::of(scene, plan).expect("a world").run(measure).expect("a cost")
+    machine(scene, plan).and_then(|machine| machine.cost(&all, &all)).expect("a cost")
 }
 
 fn assert_pruning_keeps(name: &str, scene: &Scene, least: usize) {

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
 use samples::{folder, frame, image, write_image};
+use terraline::frame::{Scalars, TABLE};
 use terraline::sink::npy::{Dtype, Header};
 use terraline::sink::npz::{self, Npz};
 use terraline::sink::png;
@@ -200,32 +201,22 @@ fn buffers_survive_a_round_trip() {
     assert_eq!(fs::read(&path).unwrap(), bytes, "the same frame gives the same bytes");
 
     let mut npz = Npz::open(&path).unwrap();
-    let names = ["hit", "lambda", "ground_x", "ground_z", "height", "normal", "steps", "trials"];
-    assert_eq!(npz.names()[..8], names);
-    assert_eq!(npz.names()[8..], ["color"]);
-    let mut read = |name: &str, dtype, shape: &[usize]| {
-        let array = npz.array(name).unwrap();
-        assert_eq!(*array.header(), Header { dtype, shape: shape.to_vec() });
-        array.read_all().unwrap()
-    };
-    let same = |read: Vec<f64>, given: &[f64]| {
+    assert_eq!(npz.names(), TABLE.each_ref().map(|entry| entry.name));
+    for (entry, scalars) in frame.arrays() {
+        let array = npz.array(entry.name).unwrap();
+        let mut shape = vec![101, 200];
+        shape.extend((entry.components > 1).then_some(entry.components));
+        assert_eq!(*array.header(), Header { dtype: entry.dtype, shape });
+        let read = array.read_all().unwrap();
+        let given: Vec<f64> = match scalars {
+            Scalars::F8(values) => values.to_vec(),
+            Scalars::U4(values) => values.iter().map(|&value| value.into()).collect(),
+            Scalars::U1(values) => values.iter().map(|&value| value.into()).collect(),
+            Scalars::Hit(values) => values.iter().map(|&hit| f64::from(hit as u8)).collect(),
+        };
         assert_eq!(read.len(), given.len());
-        assert!(read.iter().zip(given).all(|(r, g)| r.to_bits() == g.to_bits()));
-    };
-    let buffers = frame.buffers.as_ref().unwrap();
-    let hits: Vec<f64> = frame.hit.iter().map(|&hit| f64::from(hit as u8)).collect();
-    same(read("hit", Dtype::U1, &[101, 200]), &hits);
-    same(read("lambda", Dtype::F8, &[101, 200]), &buffers.lambda);
-    same(read("ground_x", Dtype::F8, &[101, 200]), &buffers.ground_x);
-    same(read("ground_z", Dtype::F8, &[101, 200]), &buffers.ground_z);
-    same(read("height", Dtype::F8, &[101, 200]), &buffers.height);
-    same(read("normal", Dtype::F8, &[101, 200, 3]), buffers.normal.as_flattened());
-    let steps: Vec<f64> = buffers.steps.iter().map(|&n| n.into()).collect();
-    same(read("steps", Dtype::U4, &[101, 200]), &steps);
-    let trials: Vec<f64> = buffers.trials.iter().flatten().map(|&n| n.into()).collect();
-    same(read("trials", Dtype::U4, &[101, 200]), &trials);
-    let color: Vec<f64> = frame.color.as_flattened().iter().map(|&c| c.into()).collect();
-    same(read("color", Dtype::U1, &[101, 200, 3]), &color);
+        assert!(read.iter().zip(given).all(|(r, g)| r.to_bits() == g.to_bits()), "{}", entry.name);
+    }
     assert!(npz.array("depth").is_err());
     assert_eq!(entries(folder.path()), [path]);
 }

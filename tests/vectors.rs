@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 use reader::File;
 use tempfile::TempDir;
-use terraline::engine::FixedWorld;
+use terraline::engine::{FixedWorld, Machine, Memories};
 use terraline::plan::Plan;
 use terraline::scene::{Scene, load};
 use terraline::sink::vectors::Vectors;
@@ -27,8 +27,11 @@ struct Written {
     folder: TempDir,
     scene: Scene,
     plan: Plan,
-    world: FixedWorld,
     selection: Selection,
+}
+
+fn machine<'a>(scene: &'a Scene, plan: &'a Plan) -> Machine<'a> {
+    Machine::new(scene, plan, &Memories::default()).expect("a machine")
 }
 
 impl Written {
@@ -40,13 +43,10 @@ impl Written {
 
     fn of(scene: Scene, full: bool, choice: Choice, corner_cases: u32, seed: u64) -> Self {
         let plan = Plan::new(&scene, None, full).expect("a plan");
-        let world = FixedWorld::of(&scene, &plan).expect("a world");
         let selection = Selection::new(&plan, choice, seed);
         let folder = tempfile::tempdir().expect("a folder");
         let vectors = Vectors {
-            scene: &scene,
-            plan: &plan,
-            world: &world,
+            machine: &machine(&scene, &plan),
             selection: &selection,
             corner_cases,
             seed,
@@ -57,7 +57,7 @@ impl Written {
             let path = folder.path().join("vectors").join(&file.file);
             assert_eq!(std::fs::metadata(path).expect("a file").len(), file.bytes);
         }
-        Self { folder, scene, plan, world, selection }
+        Self { folder, scene, plan, selection }
     }
 
     fn files(&self) -> BTreeMap<String, File> {
@@ -65,9 +65,10 @@ impl Written {
     }
 
     fn grade(&self, files: &BTreeMap<String, File>) -> Result<(), String> {
-        let stock = !matches!(self.world, FixedWorld::Sweep(_));
         let (scene, plan, selection) = (&self.scene, &self.plan, &self.selection);
-        self.world.run(grade::Grade { scene, plan, selection, files, stock })
+        let machine = machine(scene, plan);
+        let stock = !matches!(machine.world(), FixedWorld::Sweep(_));
+        machine.run(grade::Grade { scene, plan, selection, files, stock })
     }
 }
 
@@ -173,7 +174,6 @@ fn pixels_may_be_chosen_one_by_one() {
 
 #[test]
 fn a_whole_frame_takes_as_many_cycles_as_are_counted() {
-    use terraline::study::cost::Measure;
     use terraline::study::error::Sample;
     for name in ["overview", "plane"] {
         let sets = ["screen.size=[40, 30]"];
@@ -181,13 +181,8 @@ fn a_whole_frame_takes_as_many_cycles_as_are_counted() {
         let cycles = &written.files()["cycles"];
         let last = cycles.rows.last().expect("rows")[cycles.at("out", "take_frame")];
         let all = Sample::all(&written.plan);
-        let measure = Measure {
-            scene: &written.scene,
-            plan: &written.plan,
-            cycles: &all,
-            operations: &Sample { lines: vec![], columns: vec![] },
-        };
-        let cost = written.world.run(measure).expect("a cost");
+        let none = Sample { lines: vec![], columns: vec![] };
+        let cost = machine(&written.scene, &written.plan).cost(&all, &none).expect("a cost");
         assert_eq!(last.map(|last| last as u64 + 1), Some(cost.cycles), "{name}");
     }
 }

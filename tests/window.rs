@@ -1,4 +1,4 @@
-//! The window without a window: sessions, drawing and canvas behind a glass of the tests' own.
+//! The window without a window: sessions, render worker and canvas behind a glass of the tests' own.
 #![cfg(feature = "window")]
 
 #[path = "window/display.rs"]
@@ -11,25 +11,24 @@ mod scan;
 use std::collections::VecDeque;
 
 use proptest::prelude::*;
-use terraline::engine::{self, Engine, FixedWorld, InFixedWorld};
-use terraline::fast::{self, enter::Enterable};
+use terraline::engine::{Band, Engine, Machine, Memories, Wanted};
 use terraline::frame::{Frame, Hit};
+use terraline::oracle::Oracle;
 use terraline::plan::Plan;
 use terraline::scene::file::{Document, parse};
 use terraline::scene::{Scene, builtin};
-use terraline::setup::{Memory, Setup};
 use terraline::sink::picture::Picture;
-use terraline::study::explain::{explain, text::text};
+use terraline::study::explain::text::text;
 use terraline::view::action::Action;
 use terraline::view::canvas::Canvas;
-use terraline::view::drawing::{Drawing, Order};
 use terraline::view::input::Input;
 use terraline::view::layout::Layout;
+use terraline::view::order::Order;
 use terraline::view::pane::Pane;
 use terraline::view::run::{Glass, RunError, View};
 use terraline::view::script;
 use terraline::view::session::Session;
-use terraline::word::Complete;
+use terraline::view::worker::RenderWorker;
 
 /// A glass whose size changes from frame to frame, the last one staying.
 struct Sizes(VecDeque<(usize, usize)>);
@@ -70,11 +69,11 @@ fn run_in(
     let mut glass = Sizes(sizes.iter().copied().collect());
     let layout = Layout::new(sizes[0].0, sizes[0].1, scale);
     let mut session = Session::new(scene, false, Some("map.png".into()), Engine::Fast, layout);
-    let drawing = Drawing::start(session.order().expect("the first order"))
+    let worker = RenderWorker::start(session.order().expect("the first order"))
         .expect("a scene that can be drawn");
     let mut printed = Vec::new();
     let mut print = |text: &str| printed.push(text.to_owned());
-    let mut view = View::new(&mut glass, session, drawing, &mut print);
+    let mut view = View::new(&mut glass, session, worker, &mut print);
     let canvas = view.scripted(&script, frames)?.clone();
     drop(view);
     Ok((canvas, printed))
@@ -84,35 +83,19 @@ fn run(scene: Scene, size: (usize, usize), keys: &str) -> (Canvas, Vec<String>) 
     run_in(scene, 1, &[size], keys).expect("a window that stays open")
 }
 
-struct Fast<'a>(&'a Scene, &'a Plan);
-
-impl InFixedWorld for Fast<'_> {
-    type Output = Frame;
-    fn run<W: Complete + Enterable>(self, world: W) -> Frame {
-        let memory = Memory::new(&world, self.0, self.1).expect("a scene that can be drawn");
-        let setup =
-            Setup::new(world, self.0, self.1, memory.as_ref()).expect("a scene that can be drawn");
-        fast::render(&setup, self.1, true)
-    }
-}
-
 /// The frame of a scene as `render` draws it.
 fn frame(scene: &Scene, size: (usize, usize), engine: Engine) -> Frame {
+    drawn(scene, size, engine).frame
+}
+
+fn drawn(scene: &Scene, size: (usize, usize), engine: Engine) -> Band {
     let mut scene = scene.clone();
     scene.screens[0] = scene.screens[0].resized(size.0 as u32, size.1 as u32);
     let plan = Plan::new(&scene, None, false).expect("a scene that can be drawn");
-    match engine {
-        Engine::Oracle => engine::draw_oracle(&scene, &plan),
-        Engine::Real => {
-            let memory = Memory::new(&terraline::word::real::Real, &scene, &plan)
-                .expect("a scene that can be drawn");
-            engine::draw_real(&scene, &plan, memory.as_ref(), true)
-                .expect("a scene that can be drawn")
-        }
-        _ => FixedWorld::of(&scene, &plan)
-            .expect("a scene that can be drawn")
-            .run(Fast(&scene, &plan)),
-    }
+    let wanted = Wanted { buffers: true, ..Wanted::default() };
+    Machine::new(&scene, &plan, &Memories::default())
+        .and_then(|machine| Ok(machine.scan(engine, wanted)?.finish()))
+        .expect("a scene that can be drawn")
 }
 
 #[test]
@@ -125,7 +108,7 @@ fn the_window_shows_the_frames_of_all_engines() {
             let (canvas, _) = run(scene.clone(), size, &format!("tab {}", "g ".repeat(presses)));
             assert_eq!(canvas.bytes(), frame(&scene, size, engine).color, "{name} {engine:?}");
         }
-        let heights = Picture::Height.of_frame(&frame(&scene, size, Engine::Fast)).unwrap();
+        let heights = Picture::Height.of(&drawn(&scene, size, Engine::Fast)).unwrap();
         assert_eq!(run(scene, size, "2 tab").0.bytes(), heights.pixels, "{name}");
     }
 }
@@ -136,9 +119,9 @@ fn the_divider_parts_two_pictures() {
     let scene = scene("flight", &[]);
     // The cursor is in the way of nothing: panels are off.
     let (canvas, _) = run(scene.clone(), size, "tab 3 shift+4 drag=48,20,24,20");
-    let frame = frame(&scene, size, Engine::Fast);
+    let drawn = drawn(&scene, size, Engine::Fast);
     let [left, right] =
-        [Picture::Normal, Picture::Steps].map(|picture| picture.of_frame(&frame).unwrap().pixels);
+        [Picture::Normal, Picture::Steps].map(|picture| picture.of(&drawn).unwrap().pixels);
     for (index, pixel) in canvas.bytes().into_iter().enumerate() {
         let (x, y) = (index % width, index / width);
         // Rows of the grip, columns of the divider.
@@ -186,9 +169,9 @@ fn a_click_prints_what_explain_prints() {
     for keys in ["click=40,50", "move=40,50 x"] {
         let (_, printed) = run(scene.clone(), (96, 64), keys);
         let plan = Plan::new(&scene, None, false).unwrap();
-        let world = FixedWorld::of(&scene, &plan).unwrap();
-        let explanation = explain(&scene, &plan, &world, 40, 50).unwrap();
-        assert_eq!(printed, [text("valley", world.name(), &explanation)], "{keys}");
+        let machine = Machine::new(&scene, &plan, &Memories::default()).unwrap();
+        let explanation = machine.explain(40, 50).unwrap();
+        assert_eq!(printed, [text("valley", machine.world().name(), &explanation)], "{keys}");
     }
 }
 
@@ -199,11 +182,11 @@ fn the_pixel_under_the_cursor_is_that_of_the_frame() {
     let buffers = drawn.buffers.as_ref().unwrap();
     let layout = Layout::new(96, 64, 1);
     let mut session = Session::new(scene, false, Some(String::new()), Engine::Fast, layout);
-    let drawing = Drawing::start(session.order().unwrap()).unwrap();
+    let worker = RenderWorker::start(session.order().unwrap()).unwrap();
     for (column, line) in [(0, 0), (50, 40), (95, 63), (20, 20)] {
-        drawing.look(Some((column, line)));
-        drawing.finish();
-        let probe = drawing.shown().facts.probe.unwrap();
+        worker.look(Some((column, line)));
+        worker.finish();
+        let probe = worker.snapshot().facts.probe.unwrap();
         let index = line as usize * 96 + column as usize;
         assert_eq!((probe.hit, probe.steps), (drawn.hit[index], buffers.steps[index]));
         match probe.point {
@@ -215,7 +198,7 @@ fn the_pixel_under_the_cursor_is_that_of_the_frame() {
             None => assert_eq!((probe.hit, probe.error_px), (Hit::Sky, None)),
         }
     }
-    assert!(drawing.shown().facts.modelled.is_some_and(|m| m.fps > 1.0 && m.counted == 16));
+    assert!(worker.snapshot().facts.frame_rate.is_some_and(|m| m.fps > 1.0 && m.counted == 16));
 }
 
 #[test]
@@ -227,13 +210,11 @@ fn dragging_moves_the_scene_with_the_mouse() {
     let mut session = Session::new(scene, false, Some(String::new()), Engine::Fast, layout);
     let place = |session: &Session| {
         let scene = session.scene();
-        let plan = Plan::new(scene, None, false).unwrap();
-        let oracle = engine::oracle(scene, &plan);
+        let oracle = Oracle::new(scene, &scene.screens[0]);
         move |point| oracle.project(point).unwrap()
     };
     let scene = session.scene();
-    let plan = Plan::new(scene, None, false).unwrap();
-    let point = engine::oracle(scene, &plan).pixel(100.0, 150.0).point;
+    let point = Oracle::new(scene, &scene.screens[0]).pixel(100.0, 150.0).point;
     let before = place(&session)(point);
     session.act(Action::Drag(20.0, 10.0));
     let after = place(&session)(point);
@@ -256,8 +237,8 @@ fn the_craft_stays_above_the_ground() {
         let course = if step < 40 { down } else { ahead };
         session.act(Action::Fly(course, 0.1));
         let order = session.order().unwrap();
-        let drawing = Drawing::start(order);
-        assert!(drawing.is_ok(), "step {step}: {:?}", drawing.err());
+        let worker = RenderWorker::start(order);
+        assert!(worker.is_ok(), "step {step}: {:?}", worker.err());
         if session.notice().is_some() && step > 200 {
             break;
         }
@@ -278,13 +259,13 @@ fn a_new_order_and_the_end_do_not_wait_for_a_long_frame() {
     let layout = Layout::new(1600, 1200, 1);
     let mut session = Session::new(scene, false, Some(String::new()), Engine::Fast, layout);
     let order = session.order().unwrap();
-    let drawing = Drawing::start(order.clone()).unwrap();
+    let worker = RenderWorker::start(order.clone()).unwrap();
     let pane = |picture| vec![Pane { engine: Engine::Fast, picture }];
-    drawing.order(Order { panes: pane(Picture::Error), ..order.clone() });
+    worker.order(Order { panes: pane(Picture::Error), ..order.clone() });
     std::thread::sleep(std::time::Duration::from_millis(300));
     let start = std::time::Instant::now();
-    drawing.order(Order { panes: pane(Picture::Error), ..order });
-    drop(drawing);
+    worker.order(Order { panes: pane(Picture::Error), ..order });
+    drop(worker);
     assert!(start.elapsed().as_secs_f64() < 3.0, "{:?}", start.elapsed());
 }
 

@@ -1,5 +1,6 @@
-// Generated from the register table (src/setup/table.rs) and the list of coefficients
-// (hdl-model/src/coefficients.rs) by `cargo run -p terraline-hdl -- generate`; a test compares.
+// Generated from the register table (src/setup/table.rs) and the lists of coefficients
+// (src/unit/coefficient.rs) and cycles (src/unit) by `cargo run -p terraline-hdl -- generate`; a
+// test compares.
 
 // The coefficients of a frame. Loaded before `start`, one per cycle; they do not change within a
 // frame.
@@ -12,67 +13,67 @@ module registers #(
     input logic [(WIDE == 1 ? 64 : 32)-1:0] load_data,  // in the low bits
     output logic [15:0] columns,  // pixels across
     output logic [15:0] lines,  // scan lines
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_x_start,  // view_x of line 0, column 0
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_x_start,  // view_x at line 0, column 0
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_x_per_line,  // its increment per line
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_x_per_column,  // its increment per column
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_y_start,  // view_y of line 0, column 0
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_y_start,  // view_y at line 0, column 0
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_y_per_line,  // its increment per line
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_y_per_column,  // its increment per column
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_z_start,  // view_z of line 0, column 0
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_z_start,  // view_z at line 0, column 0
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_z_per_line,  // its increment per line
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] view_z_per_column,  // its increment per column
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] denominator_start,  // denominator of line 0, column 0
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] denominator_start,  // denominator at line 0, column 0
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] denominator_per_line,  // its increment per line
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] denominator_per_column,  // its increment per column
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_x,  // the eye, x: cells or squares
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_x,  // the eye, x: cells, or squares of a plane
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_z,  // the eye, z
-    output logic signed [7:0] ratio_shift,  // numerators times two to this power
-    output logic [5:0] ratio_bits,  // quotient bits: stages in use
-    output logic from_eye,  // rays start at the eye: the divider is passed by
+    output logic signed [7:0] ratio_shift_x,  // places to shift the numerator left (right if negative) before the ratio, x
+    output logic [5:0] ratio_bits_x,  // quotient bits, x: the quotient is in range from -2^(bits-1) to 2^(bits-1)-1
+    output logic from_eye,  // 1 where rays start at the eye, not at the entry
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_y,  // the eye, y in height units
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] highest,  // the highest node
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] highest,  // the highest node: y of an entry
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] base,  // base of the block under the map
-    output logic [2:0] fineness,  // k: a step is at most 2^-k cells
+    output logic [2:0] fineness,  // k: steps are 2^-k-1 to 2^-k cells
     output logic [25:0] last,  // index of the last sample
-    output logic halvings_fixed,  // always halve halvings_cap times
-    output logic signed [7:0] halvings_bias,  // halvings at distance one
-    output logic [5:0] halvings_cap,  // most halvings
-    output logic skipping,  // the pyramid is fitted
+    output logic bisection_fixed,  // 1 where every hit takes bisection_cap steps
+    output logic signed [7:0] bisection_bias,  // bisection steps are bias minus leading one
+    output logic [5:0] bisection_cap,  // and at most this many
+    output logic skipping,  // 1 where the pyramid is fitted
     output logic [4:0] pyramid_top,  // highest level of the pyramid
-    output logic beyond_sky,  // quotients out of range are sky, not far
+    output logic beyond_sky,  // 1 where an entry out of range is sky, else it is far
     output logic [(WIDE == 1 ? 26 : 12)-1:0] map_columns,  // nodes of the map in x
     output logic [(WIDE == 1 ? 26 : 12)-1:0] map_rows,  // nodes of the map in z
-    output logic map_ends,  // the map ends at its edge, else its edge nodes go on
-    output logic sides,  // the map has sides, down to the base
-    output logic void_bits,  // nodes may have no data
-    output logic [1:0] form,  // weights: 0 the kernel's, 1 blended with the hat's, 2 the hat's
-    output logic [5:0] blend_shift,  // the blend's shift
-    output logic [4:0] table_log2,  // entries of the kernel tables per cell, power of two
-    output logic slope_scaled,  // slopes have factors
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] slope_scale_x,  // height unit over cell size, x
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] slope_scale_z,  // height unit over cell size, z
+    output logic [1:0] map_edge,  // beyond the edge: 0 the map ends, 1 its edge nodes go on, 2 it repeats
+    output logic sides,  // 1 where the map has sides, drawn down to the base
+    output logic void_bits,  // 1 where nodes may have no data
+    output logic [1:0] form,  // weights: 0 the kernel's, 1 blended with the hat's, 2 the hat's, 3 over 3x3 nodes
+    output logic [5:0] blend_shift,  // places that a blend shifts the difference right
+    output logic [4:0] kernel_log2,  // the kernel tables have 2^log2 entries a cell, and one
+    output logic slope_scaled,  // 1 where slopes have factors
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] slope_scale_x,  // factor on a slope, x: height unit over cell
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] slope_scale_z,  // the same, z
     output logic [6:0] memory_latency,  // M: cycles from address to data
-    output logic [23:0] sky_color,  // colour where nothing is met, red in the low byte
+    output logic [23:0] sky_color,  // colour where nothing is met
     output logic [23:0] far_color,  // colour out of range
     output logic [23:0] side_color,  // colour of the map's side
-    output logic lit,  // the light is fitted
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] toward_x,  // direction to the light times the diffuse share, x
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] toward_y,  // the same, y
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] toward_z,  // the same, z
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] ambient,  // ambient share
+    output logic lit,  // 1 where the light is fitted
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] light_x,  // direction towards the light, times the diffuse share, x
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] light_y,  // the same, y
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] light_z,  // the same, z
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] ambient,  // the ambient share
     output logic signed [7:0] ramp_exponent,  // heights times two to this power lie in [0, 1)
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] ramp_gain,  // ramp segments per such height
-    output logic [3:0] ramp_last,  // last segment
+    output logic [3:0] ramp_last,  // last segment of the ramp
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] mean_red,  // mean of the two colours, red
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] mean_green,  // the same, green
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] mean_blue,  // the same, blue
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] swing_red,  // half their difference, red
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] swing_red,  // half of what they differ by, red
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] swing_green,  // the same, green
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] swing_blue,  // the same, blue
     output logic signed [7:0] contrast_exponent,  // power of two on the denominator
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] contrast_gain,  // gain that makes contrast plus one
-    output logic full_from_fitted,  // there is a denominator of full contrast
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] full_from  // denominator from which on contrast is full
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] contrast_gain,  // gain that makes it contrast plus one
+    output logic full_from_fitted,  // 1 where some denominator has full contrast
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] full_from  // denominators from this on have full contrast
 );
   localparam int CELL = WIDE == 1 ? 26 : 12;
 
@@ -95,28 +96,28 @@ module registers #(
         16'(terraline_pkg::ADDRESS_DENOMINATOR_PER_COLUMN): denominator_per_column <= load_data;
         16'(terraline_pkg::ADDRESS_EYE_X): eye_x <= load_data;
         16'(terraline_pkg::ADDRESS_EYE_Z): eye_z <= load_data;
-        16'(terraline_pkg::ADDRESS_RATIO_SHIFT): ratio_shift <= load_data[7:0];
-        16'(terraline_pkg::ADDRESS_RATIO_BITS): ratio_bits <= load_data[5:0];
+        16'(terraline_pkg::ADDRESS_RATIO_SHIFT_X): ratio_shift_x <= load_data[7:0];
+        16'(terraline_pkg::ADDRESS_RATIO_BITS_X): ratio_bits_x <= load_data[5:0];
         16'(terraline_pkg::ADDRESS_FROM_EYE): from_eye <= load_data[0];
         16'(terraline_pkg::ADDRESS_EYE_Y): eye_y <= load_data;
         16'(terraline_pkg::ADDRESS_HIGHEST): highest <= load_data;
         16'(terraline_pkg::ADDRESS_BASE): base <= load_data;
         16'(terraline_pkg::ADDRESS_FINENESS): fineness <= load_data[2:0];
         16'(terraline_pkg::ADDRESS_LAST): last <= load_data[25:0];
-        16'(terraline_pkg::ADDRESS_HALVINGS_FIXED): halvings_fixed <= load_data[0];
-        16'(terraline_pkg::ADDRESS_HALVINGS_BIAS): halvings_bias <= load_data[7:0];
-        16'(terraline_pkg::ADDRESS_HALVINGS_CAP): halvings_cap <= load_data[5:0];
+        16'(terraline_pkg::ADDRESS_BISECTION_FIXED): bisection_fixed <= load_data[0];
+        16'(terraline_pkg::ADDRESS_BISECTION_BIAS): bisection_bias <= load_data[7:0];
+        16'(terraline_pkg::ADDRESS_BISECTION_CAP): bisection_cap <= load_data[5:0];
         16'(terraline_pkg::ADDRESS_SKIPPING): skipping <= load_data[0];
         16'(terraline_pkg::ADDRESS_PYRAMID_TOP): pyramid_top <= load_data[4:0];
         16'(terraline_pkg::ADDRESS_BEYOND_SKY): beyond_sky <= load_data[0];
         16'(terraline_pkg::ADDRESS_MAP_COLUMNS): map_columns <= load_data[CELL-1:0];
         16'(terraline_pkg::ADDRESS_MAP_ROWS): map_rows <= load_data[CELL-1:0];
-        16'(terraline_pkg::ADDRESS_MAP_ENDS): map_ends <= load_data[0];
+        16'(terraline_pkg::ADDRESS_MAP_EDGE): map_edge <= load_data[1:0];
         16'(terraline_pkg::ADDRESS_SIDES): sides <= load_data[0];
         16'(terraline_pkg::ADDRESS_VOID_BITS): void_bits <= load_data[0];
         16'(terraline_pkg::ADDRESS_FORM): form <= load_data[1:0];
         16'(terraline_pkg::ADDRESS_BLEND_SHIFT): blend_shift <= load_data[5:0];
-        16'(terraline_pkg::ADDRESS_TABLE_LOG2): table_log2 <= load_data[4:0];
+        16'(terraline_pkg::ADDRESS_KERNEL_LOG2): kernel_log2 <= load_data[4:0];
         16'(terraline_pkg::ADDRESS_SLOPE_SCALED): slope_scaled <= load_data[0];
         16'(terraline_pkg::ADDRESS_SLOPE_SCALE_X): slope_scale_x <= load_data;
         16'(terraline_pkg::ADDRESS_SLOPE_SCALE_Z): slope_scale_z <= load_data;
@@ -125,9 +126,9 @@ module registers #(
         16'(terraline_pkg::ADDRESS_FAR_COLOR): far_color <= load_data[23:0];
         16'(terraline_pkg::ADDRESS_SIDE_COLOR): side_color <= load_data[23:0];
         16'(terraline_pkg::ADDRESS_LIT): lit <= load_data[0];
-        16'(terraline_pkg::ADDRESS_TOWARD_X): toward_x <= load_data;
-        16'(terraline_pkg::ADDRESS_TOWARD_Y): toward_y <= load_data;
-        16'(terraline_pkg::ADDRESS_TOWARD_Z): toward_z <= load_data;
+        16'(terraline_pkg::ADDRESS_LIGHT_X): light_x <= load_data;
+        16'(terraline_pkg::ADDRESS_LIGHT_Y): light_y <= load_data;
+        16'(terraline_pkg::ADDRESS_LIGHT_Z): light_z <= load_data;
         16'(terraline_pkg::ADDRESS_AMBIENT): ambient <= load_data;
         16'(terraline_pkg::ADDRESS_RAMP_EXPONENT): ramp_exponent <= load_data[7:0];
         16'(terraline_pkg::ADDRESS_RAMP_GAIN): ramp_gain <= load_data;

@@ -74,6 +74,141 @@ module terraline #(
   localparam int PROJECTOR = 0, DIVIDER = 1, STEPPER = 2, INTERPOLATOR = 3, SHADER = 4, FRAME = 5;
 
   // ---- Generated: the bank of coefficients
+  logic [15:0] columns;
+  logic [15:0] lines;
+  logic signed [W-1:0] view_x_start;
+  logic signed [W-1:0] view_x_per_line;
+  logic signed [W-1:0] view_x_per_column;
+  logic signed [W-1:0] view_y_start;
+  logic signed [W-1:0] view_y_per_line;
+  logic signed [W-1:0] view_y_per_column;
+  logic signed [W-1:0] view_z_start;
+  logic signed [W-1:0] view_z_per_line;
+  logic signed [W-1:0] view_z_per_column;
+  logic signed [W-1:0] denominator_start;
+  logic signed [W-1:0] denominator_per_line;
+  logic signed [W-1:0] denominator_per_column;
+  logic signed [W-1:0] eye_x;
+  logic signed [W-1:0] eye_z;
+  logic signed [7:0] ratio_shift_x;
+  logic [5:0] ratio_bits_x;
+  logic from_eye;
+  logic signed [W-1:0] eye_y;
+  logic signed [W-1:0] highest;
+  logic signed [W-1:0] base;
+  logic [2:0] fineness;
+  logic [25:0] last;
+  logic bisection_fixed;
+  logic signed [7:0] bisection_bias;
+  logic [5:0] bisection_cap;
+  logic skipping;
+  logic [4:0] pyramid_top;
+  logic beyond_sky;
+  logic [CELL-1:0] map_columns;
+  logic [CELL-1:0] map_rows;
+  logic [1:0] map_edge;
+  logic sides;
+  logic void_bits;
+  logic [1:0] form;
+  logic [5:0] blend_shift;
+  logic [4:0] kernel_log2;
+  logic slope_scaled;
+  logic signed [W-1:0] slope_scale_x;
+  logic signed [W-1:0] slope_scale_z;
+  logic [6:0] memory_latency;
+  logic [23:0] sky_color;
+  logic [23:0] far_color;
+  logic [23:0] side_color;
+  logic lit;
+  logic signed [W-1:0] light_x;
+  logic signed [W-1:0] light_y;
+  logic signed [W-1:0] light_z;
+  logic signed [W-1:0] ambient;
+  logic signed [7:0] ramp_exponent;
+  logic signed [W-1:0] ramp_gain;
+  logic [3:0] ramp_last;
+  logic signed [W-1:0] mean_red;
+  logic signed [W-1:0] mean_green;
+  logic signed [W-1:0] mean_blue;
+  logic signed [W-1:0] swing_red;
+  logic signed [W-1:0] swing_green;
+  logic signed [W-1:0] swing_blue;
+  logic signed [7:0] contrast_exponent;
+  logic signed [W-1:0] contrast_gain;
+  logic full_from_fitted;
+  logic signed [W-1:0] full_from;
+
+  registers #(
+      .WIDE(WIDE)
+  ) registers (
+      .clock(clock),
+      .load(load && load_space == 3'd0),
+      .load_address(load_address[15:0]),
+      .load_data(load_data),
+      .columns(columns),
+      .lines(lines),
+      .view_x_start(view_x_start),
+      .view_x_per_line(view_x_per_line),
+      .view_x_per_column(view_x_per_column),
+      .view_y_start(view_y_start),
+      .view_y_per_line(view_y_per_line),
+      .view_y_per_column(view_y_per_column),
+      .view_z_start(view_z_start),
+      .view_z_per_line(view_z_per_line),
+      .view_z_per_column(view_z_per_column),
+      .denominator_start(denominator_start),
+      .denominator_per_line(denominator_per_line),
+      .denominator_per_column(denominator_per_column),
+      .eye_x(eye_x),
+      .eye_z(eye_z),
+      .ratio_shift_x(ratio_shift_x),
+      .ratio_bits_x(ratio_bits_x),
+      .from_eye(from_eye),
+      .eye_y(eye_y),
+      .highest(highest),
+      .base(base),
+      .fineness(fineness),
+      .last(last),
+      .bisection_fixed(bisection_fixed),
+      .bisection_bias(bisection_bias),
+      .bisection_cap(bisection_cap),
+      .skipping(skipping),
+      .pyramid_top(pyramid_top),
+      .beyond_sky(beyond_sky),
+      .map_columns(map_columns),
+      .map_rows(map_rows),
+      .map_edge(map_edge),
+      .sides(sides),
+      .void_bits(void_bits),
+      .form(form),
+      .blend_shift(blend_shift),
+      .kernel_log2(kernel_log2),
+      .slope_scaled(slope_scaled),
+      .slope_scale_x(slope_scale_x),
+      .slope_scale_z(slope_scale_z),
+      .memory_latency(memory_latency),
+      .sky_color(sky_color),
+      .far_color(far_color),
+      .side_color(side_color),
+      .lit(lit),
+      .light_x(light_x),
+      .light_y(light_y),
+      .light_z(light_z),
+      .ambient(ambient),
+      .ramp_exponent(ramp_exponent),
+      .ramp_gain(ramp_gain),
+      .ramp_last(ramp_last),
+      .mean_red(mean_red),
+      .mean_green(mean_green),
+      .mean_blue(mean_blue),
+      .swing_red(swing_red),
+      .swing_green(swing_green),
+      .swing_blue(swing_blue),
+      .contrast_exponent(contrast_exponent),
+      .contrast_gain(contrast_gain),
+      .full_from_fitted(full_from_fitted),
+      .full_from(full_from)
+  );
   // ---- End of what is generated
 
   // ---- Raster scan and projector

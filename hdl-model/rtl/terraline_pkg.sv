@@ -1,5 +1,6 @@
-// Generated from the register table (src/setup/table.rs) and the list of coefficients
-// (hdl-model/src/coefficients.rs) by `cargo run -p terraline-hdl -- generate`; a test compares.
+// Generated from the register table (src/setup/table.rs) and the lists of coefficients
+// (src/unit/coefficient.rs) and cycles (src/unit) by `cargo run -p terraline-hdl -- generate`; a
+// test compares.
 package terraline_pkg;
 
   // Words of 32 bits
@@ -64,28 +65,28 @@ package terraline_pkg;
   localparam int ADDRESS_DENOMINATOR_PER_COLUMN = 13;
   localparam int ADDRESS_EYE_X = 14;
   localparam int ADDRESS_EYE_Z = 15;
-  localparam int ADDRESS_RATIO_SHIFT = 16;
-  localparam int ADDRESS_RATIO_BITS = 17;
+  localparam int ADDRESS_RATIO_SHIFT_X = 16;
+  localparam int ADDRESS_RATIO_BITS_X = 17;
   localparam int ADDRESS_FROM_EYE = 18;
   localparam int ADDRESS_EYE_Y = 19;
   localparam int ADDRESS_HIGHEST = 20;
   localparam int ADDRESS_BASE = 21;
   localparam int ADDRESS_FINENESS = 22;
   localparam int ADDRESS_LAST = 23;
-  localparam int ADDRESS_HALVINGS_FIXED = 24;
-  localparam int ADDRESS_HALVINGS_BIAS = 25;
-  localparam int ADDRESS_HALVINGS_CAP = 26;
+  localparam int ADDRESS_BISECTION_FIXED = 24;
+  localparam int ADDRESS_BISECTION_BIAS = 25;
+  localparam int ADDRESS_BISECTION_CAP = 26;
   localparam int ADDRESS_SKIPPING = 27;
   localparam int ADDRESS_PYRAMID_TOP = 28;
   localparam int ADDRESS_BEYOND_SKY = 29;
   localparam int ADDRESS_MAP_COLUMNS = 30;
   localparam int ADDRESS_MAP_ROWS = 31;
-  localparam int ADDRESS_MAP_ENDS = 32;
+  localparam int ADDRESS_MAP_EDGE = 32;
   localparam int ADDRESS_SIDES = 33;
   localparam int ADDRESS_VOID_BITS = 34;
   localparam int ADDRESS_FORM = 35;
   localparam int ADDRESS_BLEND_SHIFT = 36;
-  localparam int ADDRESS_TABLE_LOG2 = 37;
+  localparam int ADDRESS_KERNEL_LOG2 = 37;
   localparam int ADDRESS_SLOPE_SCALED = 38;
   localparam int ADDRESS_SLOPE_SCALE_X = 39;
   localparam int ADDRESS_SLOPE_SCALE_Z = 40;
@@ -94,9 +95,9 @@ package terraline_pkg;
   localparam int ADDRESS_FAR_COLOR = 43;
   localparam int ADDRESS_SIDE_COLOR = 44;
   localparam int ADDRESS_LIT = 45;
-  localparam int ADDRESS_TOWARD_X = 46;
-  localparam int ADDRESS_TOWARD_Y = 47;
-  localparam int ADDRESS_TOWARD_Z = 48;
+  localparam int ADDRESS_LIGHT_X = 46;
+  localparam int ADDRESS_LIGHT_Y = 47;
+  localparam int ADDRESS_LIGHT_Z = 48;
   localparam int ADDRESS_AMBIENT = 49;
   localparam int ADDRESS_RAMP_EXPONENT = 50;
   localparam int ADDRESS_RAMP_GAIN = 51;

@@ -9,10 +9,11 @@ mod stock;
 use elastic::Pace;
 use random::Random;
 use stock::{SHADING, Stock, bits, packed, word};
+use terraline::engine::Memories;
 use terraline::plan::Plan;
 use terraline::processor::Processor;
 use terraline::scene::load;
-use terraline::setup::{Back, Memory, Setup};
+use terraline::setup::Back;
 use terraline::unit::Line;
 use terraline::unit::checker::Checker;
 use terraline::unit::line::Entry;
@@ -111,8 +112,7 @@ fn real_frames<W: Stock>(world: W, seed: u64) {
         scene.screens[0] = scene.screens[0].resized(64, 48);
         // Some planes have positions too fine for the smaller words.
         let Ok(plan) = Plan::new(&scene, None, false) else { continue };
-        let memory = Memory::new(&world, &scene, &plan).expect("no memory");
-        let setup = Setup::new(world, &scene, &plan, memory.as_ref()).expect("a set-up");
+        let setup = Memories::default().set_up(world, &scene, &plan).expect("a set-up");
         let Back::Plane(checker) = &setup.back else { panic!("a plane") };
         load_coefficients(&mut rtl, checker);
         let mut processor = Processor::new(&setup);

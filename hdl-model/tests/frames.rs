@@ -2,12 +2,11 @@
 #![cfg(rtl)]
 
 use terraline::clock::Sink;
-use terraline::engine::{FixedWorld, InFixedWorld};
-use terraline::fast::enter::Enterable;
+use terraline::engine::{self, Memories, WithSetup};
 use terraline::plan::Plan;
 use terraline::scene::{self, Scene};
 use terraline::setup::Back;
-use terraline::setup::{Memory, Setup};
+use terraline::setup::Setup;
 use terraline::word::Complete;
 use terraline::word::Lane;
 use terraline::word::stock::Narrow;
@@ -16,17 +15,14 @@ use terraline_hdl::machine::Machine;
 
 struct Cosimulation<'a> {
     scene: &'a Scene,
-    plan: &'a Plan,
     sink: Sink,
 }
 
-impl InFixedWorld for Cosimulation<'_> {
+impl WithSetup for Cosimulation<'_> {
     type Output = Outcome;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Outcome {
-        let memory = Memory::new(&world, self.scene, self.plan).expect("memories");
-        let setup = Setup::new(world, self.scene, self.plan, memory.as_ref()).expect("a set-up");
-        compare(&setup, self.sink, None).expect("a frame")
+    fn run<W: Complete>(self, setup: &Setup<W>) -> Outcome {
+        compare(setup, self.sink, None).expect("a frame")
     }
 }
 
@@ -34,8 +30,8 @@ fn assert_equal(name: &str, sets: &[&str], sink: Sink) {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
     let scene = scene::load(Some(name), &sets).expect("a scene");
     let plan = Plan::new(&scene, None, false).expect("a plan");
-    let world = FixedWorld::of(&scene, &plan).expect("a world");
-    let outcome = world.run(Cosimulation { scene: &scene, plan: &plan, sink });
+    let machine = engine::Machine::new(&scene, &plan, &Memories::default()).expect("a set-up");
+    let outcome = machine.run(Cosimulation { scene: &scene, sink });
     assert!(
         outcome.is_equal(),
         "{name} {sets:?} {sink:?}: {} differences, {} cycles for {}\n{}",
@@ -98,8 +94,7 @@ fn differences(change: impl Fn(&mut Setup<Narrow>)) -> (u64, String) {
     let sets = ["screen.size=[24, 18]".to_owned()];
     let scene = scene::load(Some("flight"), &sets).expect("a scene");
     let plan = Plan::new(&scene, None, false).expect("a plan");
-    let memory = Memory::new(&Narrow, &scene, &plan).expect("memories");
-    let setup = Setup::new(Narrow, &scene, &plan, memory.as_ref()).expect("a set-up");
+    let setup = Memories::default().set_up(Narrow, &scene, &plan).expect("a set-up");
     let machine = Machine::new(&setup).expect("a machine");
     let mut changed = setup.clone();
     change(&mut changed);

@@ -11,11 +11,12 @@ use std::sync::Arc;
 use elastic::Pace;
 use random::Random;
 use stock::{SHADING, Stock, bits, packed, word};
+use terraline::engine::Memories;
 use terraline::frame::Hit;
 use terraline::plan::Plan;
 use terraline::processor::Processor;
 use terraline::scene::load;
-use terraline::setup::{Back, Memory, Setup};
+use terraline::setup::Back;
 use terraline::unit::Line;
 use terraline::unit::light::Light;
 use terraline::unit::mixer::Mixer;
@@ -141,8 +142,7 @@ fn real_frames<W: Stock>(world: W, seed: u64) {
             // The eye may be under ground that is raised.
             scene.camera.position.y += 120.0;
             let plan = Plan::new(&scene, None, false).expect("a plan");
-            let memory = Memory::new(&world, &scene, &plan).expect("a memory");
-            let setup = Setup::new(world, &scene, &plan, memory.as_ref()).expect("a set-up");
+            let setup = Memories::default().set_up(world, &scene, &plan).expect("a set-up");
             let Back::Terrain(units) = &setup.back else { panic!("{name} is a height map") };
             load_coefficients(&mut rtl, &units.shader);
             let mut processor = Processor::new(&setup);

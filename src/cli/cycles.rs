@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::scene_args::SceneArgs;
 use super::{Stop, report};
-use crate::study::cost::{Cost, Measure};
+use crate::study::cost::Cost;
 use crate::study::error::Sample;
 
 /// Count cycles, additions and reads per unit, and the frame rate at the scene's clock.
@@ -30,9 +30,10 @@ impl Cycles {
         let (scene, plan) = (&planned.scene, &planned.plan);
         let all = Sample::all(plan);
         let operations = Sample::whole_lines(plan, self.sample, scene.seed);
-        let measure = Measure { scene, plan, cycles: &all, operations: &operations };
-        let cost = report::while_waiting("counting", || planned.world.run(measure))
-            .map_err(|error| planned.refused(&error))?;
+        let cost = report::while_waiting("counting", || {
+            let cost = planned.machine()?.cost(&all, &operations);
+            cost.map_err(|error| planned.refused(&error))
+        })?;
         if self.json {
             return report::json("cycles", Some(&scene.name), &cost);
         }

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::scene_args::{SceneArgs, parse_pixel};
 use super::{Stop, report};
-use crate::study::explain::{explain, text::text};
+use crate::study::explain::text::text;
 
 /// Walk one pixel from set-up to colour, register by register.
 #[derive(Debug, Args)]
@@ -26,8 +26,8 @@ impl Explain {
     pub fn run(&self) -> Result<(), Stop> {
         let planned = self.scene.load()?;
         let (column, line) = parse_pixel(&self.pixel, &planned.plan)?;
-        let explanation = explain(&planned.scene, &planned.plan, &planned.world, column, line)
-            .map_err(|error| planned.refused(&error))?;
+        let explanation =
+            planned.machine()?.explain(column, line).map_err(|error| planned.refused(&error))?;
         if self.json {
             return report::json("explain", Some(&planned.scene.name), &explanation);
         }

@@ -3,7 +3,6 @@
 mod summary;
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -12,17 +11,13 @@ use super::outputs::{self, Named};
 use super::scene_args::{Planned, SceneArgs};
 use super::scene_out::SceneOut;
 use super::{Stop, report};
-use crate::clock::{Chain, Clock};
-use crate::engine::{self, Engine, InFixedWorld, Overflows};
-use crate::fast::{self, enter::Enterable};
-use crate::frame::Frame;
+use crate::engine::{Band, Engine, InFixedWorld, Machine, Wanted};
+use crate::fast::enter::Enterable;
 use crate::plan::units::{UnitPlan, units};
-use crate::setup::{Memory, Setup, SetupError};
-use crate::sink::picture::{self, Picture};
+use crate::sink::picture::Picture;
 use crate::sink::{npz, png};
-use crate::study::error::{self, Sample, Sheet};
+use crate::study::error::Sample;
 use crate::word::Complete;
-use crate::word::real::Real;
 
 /// Draw one frame and say what it is worth and what it costs.
 #[derive(Debug, Args)]
@@ -68,69 +63,13 @@ pub struct Render {
 const MAX_BUFFERED: usize = 1 << 24;
 
 /// A drawn frame.
-struct Drawn {
-    frame: Frame,
+struct Drawn<'a> {
+    /// What drew it last.
+    machine: Machine<'a>,
+    band: Band,
     times: Vec<Duration>,
+    /// Loading maps and tables.
     setup: Duration,
-    overflows: Overflows,
-    cycles: Option<Vec<u32>>,
-}
-
-struct Draw<'a> {
-    planned: &'a Planned,
-    engine: Engine,
-    buffers: bool,
-    repeat: u32,
-    cycles: bool,
-}
-
-impl InFixedWorld for Draw<'_> {
-    type Output = Result<Drawn, SetupError>;
-
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-        let Planned { scene, plan, .. } = self.planned;
-        let start = Instant::now();
-        let memory = Memory::new(&world, scene, plan)?;
-        let loaded = start.elapsed();
-        let mut overflows = Overflows::default();
-        let mut cycles = None;
-        let mut times = Vec::new();
-        let mut frame = None;
-        for _ in 0..self.repeat {
-            let start = Instant::now();
-            let setup = Setup::new(world, scene, plan, memory.as_ref())?;
-            frame = Some(if self.engine == Engine::Fast && !self.planned.world.can_overflow() {
-                fast::render(&setup, plan, self.buffers)
-            } else if self.engine == Engine::Fast {
-                let found = Mutex::new(Overflows::default());
-                let frame = fast::render_and_look(&setup, plan, self.buffers, &|line| {
-                    if let Ok(mut found) = found.lock() {
-                        found.inspect(line);
-                    }
-                });
-                overflows = found.into_inner().unwrap_or_default();
-                frame
-            } else {
-                let mut clock =
-                    self.cycles.then(|| (Clock::new(Chain::new(&setup)), Vec::new(), 0));
-                overflows = Overflows::default();
-                let frame = engine::draw_by_lines(&setup, plan, self.buffers, |line| {
-                    overflows.inspect(line);
-                    if let Some((clock, spent, before)) = &mut clock {
-                        clock.take_line(line, |_, done| {
-                            spent.push((done - *before) as u32);
-                            *before = done;
-                        });
-                    }
-                });
-                cycles = clock.map(|(_, spent, _)| spent);
-                frame
-            });
-            times.push(start.elapsed());
-        }
-        let frame = frame.unwrap_or_else(|| unreachable!("at least one frame is drawn"));
-        Ok(Drawn { frame, times, setup: loaded, overflows, cycles })
-    }
 }
 
 impl Render {
@@ -156,7 +95,7 @@ impl Render {
             self.write_picture(path, &planned, &drawn)?;
         }
         if let Some(path) = &self.buffers {
-            npz::write(path, &drawn.frame)?;
+            npz::write(path, &drawn.band.frame)?;
         }
         self.scene_out.write(scene_text.as_deref())?;
         if self.json {
@@ -175,66 +114,49 @@ impl Render {
             .chain(self.scene_out.named())
     }
 
-    fn draw(&self, planned: &Planned, buffers: bool) -> Result<Drawn, Stop> {
-        let Planned { scene, plan, world, .. } = planned;
+    fn draw<'a>(&self, planned: &'a Planned, buffers: bool) -> Result<Drawn<'a>, Stop> {
         let cycles = self.picture == Picture::Cycles;
         if cycles && self.engine != Engine::Processor {
             return Err(Stop::BadInput(
                 "--picture cycles: cycles are the processor's; add --engine processor".into(),
             ));
         }
-        let draw = |engine| Draw { planned, engine, buffers, repeat: self.repeat, cycles };
-        match self.engine {
-            Engine::Fast if !world.wraps() => Err(Stop::BadInput(
+        if self.engine == Engine::Fast && !planned.world.wraps() {
+            return Err(Stop::BadInput(
                 "--engine fast: saturating registers cannot be entered at any step; add \
                  --engine processor"
                     .into(),
-            )),
-            Engine::Fast | Engine::Processor => {
-                world.run(draw(self.engine)).map_err(|error| planned.refused(&error))
-            }
-            Engine::Real | Engine::Oracle => {
-                let mut times = Vec::new();
-                let mut frame = None;
-                let refused = |error| planned.refused(&error);
-                let start = Instant::now();
-                let memory = match self.engine {
-                    Engine::Real => Memory::new(&Real, scene, plan).map_err(refused)?,
-                    _ => None,
-                };
-                let setup = start.elapsed();
-                for _ in 0..self.repeat {
-                    let start = Instant::now();
-                    frame = Some(match self.engine {
-                        Engine::Real => engine::draw_real(scene, plan, memory.as_ref(), buffers)
-                            .map_err(refused)?,
-                        _ => engine::draw_oracle(scene, plan),
-                    });
-                    times.push(start.elapsed());
-                }
-                let frame = frame.unwrap_or_else(|| unreachable!("at least one frame is drawn"));
-                Ok(Drawn { frame, times, setup, overflows: Overflows::default(), cycles: None })
+            ));
+        }
+        let refused = |error| planned.refused(&error);
+        let mut times = Vec::new();
+        let mut setup = Duration::ZERO;
+        loop {
+            let machine = planned.machine_for(self.engine)?;
+            let set_up = machine.set_up_time(self.engine).map_err(refused)?;
+            setup = setup.max(set_up.memories);
+            let start = Instant::now();
+            let wanted = Wanted { first_line: 0, buffers, cycles };
+            let band = machine.scan(self.engine, wanted).map_err(refused)?.finish();
+            times.push(set_up.coefficients + start.elapsed());
+            if times.len() == self.repeat as usize {
+                return Ok(Drawn { machine, band, times, setup });
             }
         }
     }
 
-    fn write_picture(&self, path: &Path, planned: &Planned, drawn: &Drawn) -> Result<(), Stop> {
-        let frame = &drawn.frame;
-        let painted = match self.picture {
+    fn write_picture(&self, path: &Path, planned: &Planned, drawn: &Drawn<'_>) -> Result<(), Stop> {
+        let frame = &drawn.band.frame;
+        let errors = match self.picture {
             Picture::Error => {
-                let Planned { scene, plan, world, .. } = planned;
-                let pixels = report::while_waiting("asking the oracle", || {
-                    error::pixels(scene, plan, world, &Sample::all(plan))
-                })
-                .map_err(|error| planned.refused(&error))?;
-                let errors: Vec<f64> = pixels.iter().map(|p| p.total_px).collect();
-                let silhouettes: Vec<bool> =
-                    pixels.iter().map(|p| p.sheet == Sheet::Silhouette).collect();
-                picture::error(&errors, &silhouettes)
+                let scan = drawn.machine.scan_errors(Sample::all(&planned.plan), false);
+                let scan = scan.map_err(|error| planned.refused(&error))?;
+                Some(report::while_waiting("asking the oracle", || scan.finish()))
             }
-            Picture::Cycles => picture::cycles(drawn.cycles.as_deref().unwrap_or_default()),
-            other => other.of_frame(frame).unwrap_or_else(|| unreachable!("buffers were drawn")),
+            _ => None,
         };
+        let painted = self.picture.of(errors.as_ref().unwrap_or(&drawn.band));
+        let painted = painted.unwrap_or_else(|| unreachable!("it was drawn"));
         png::write(path, frame.columns, frame.lines, &painted.pixels)?;
         if let Some(legend) = painted.legend {
             eprintln!(

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::Stop;
-use crate::engine::FixedWorld;
+use crate::engine::{Engine, FixedWorld, Machine, Memories};
 use crate::plan::Plan;
 use crate::scene::overlook::{self, Overlook};
 use crate::scene::screen::{MAX_PIXELS, MAX_SIDE};
@@ -13,6 +13,7 @@ use crate::scene::{
     self, FormatRequest, Overflow, Registers, Rounding, Scene, Surface, Terrain, list, registers,
 };
 use crate::setup::SetupError;
+use crate::word::real::Real;
 
 /// Scene and overrides.
 #[derive(Debug, Args)]
@@ -45,7 +46,6 @@ pub struct SceneArgs {
 }
 
 /// A scene with its plan and world.
-#[derive(Debug)]
 pub struct Planned {
     /// The scene.
     pub scene: Scene,
@@ -53,6 +53,8 @@ pub struct Planned {
     pub plan: Plan,
     /// Its fixed-point world.
     pub world: FixedWorld,
+    /// Its memories, once they are loaded.
+    memories: Memories,
     /// How the command line names the scene.
     pub named: String,
     /// How to name the scene and its overrides on a command line.
@@ -62,6 +64,21 @@ pub struct Planned {
 }
 
 impl Planned {
+    /// The scene's machine, its coefficients set up anew, its memories loaded once.
+    pub fn machine(&self) -> Result<Machine<'_>, Stop> {
+        Machine::in_world(self.world, &self.scene, &self.plan, &self.memories)
+            .map_err(|error| self.refused(&error))
+    }
+
+    /// The machine for an engine, which refuses in its own numbers what it cannot draw.
+    pub fn machine_for(&self, engine: Engine) -> Result<Machine<'_>, Stop> {
+        let real = || self.memories.set_up(Real, &self.scene, &self.plan).err();
+        self.machine().map_err(|stop| match engine {
+            Engine::Real => real().map_or(stop, |error| self.refused(&error)),
+            _ => stop,
+        })
+    }
+
     /// The message for an error of set-up, with the name of the scene.
     pub fn refused(&self, error: &SetupError) -> Stop {
         Stop::BadInput(format!("{}: {error}", self.named))
@@ -96,8 +113,8 @@ impl SceneArgs {
         let plan = Plan::new(&scene, self.screen.as_deref(), self.full)
             .map_err(|error| located(error.to_string()))?;
         let world = FixedWorld::of(&scene, &plan).map_err(|error| located(error.to_string()))?;
-        let invocation = self.invocation();
-        Ok(Planned { scene, plan, world, named: of.to_owned(), invocation, overlook })
+        let (memories, invocation) = (Memories::default(), self.invocation());
+        Ok(Planned { scene, plan, world, memories, named: of.to_owned(), invocation, overlook })
     }
 
     /// Whether registers have formats of their own, which no scene file of ours holds.

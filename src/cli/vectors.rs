@@ -9,7 +9,7 @@ use super::scene_args::{Planned, SceneArgs};
 use super::{Stop, report};
 use crate::sink::folder::NewFolder;
 use crate::sink::vectors::selection::{Choice, Selection};
-use crate::sink::vectors::{self, Report, VectorsError};
+use crate::sink::vectors::{self, Report};
 
 /// Lines that become rows where nothing else is asked for: a whole frame would be huge.
 const LINES: &str = "4";
@@ -71,21 +71,16 @@ impl Vectors {
         let choice = self.choice(plan.geometry.lines)?;
         let seed = self.seed.unwrap_or(scene.seed);
         let selection = Selection::new(plan, choice, seed);
-        let job = vectors::Vectors {
-            scene,
-            plan,
-            world: &planned.world,
-            selection: &selection,
-            corner_cases: self.corner_cases,
-            seed,
-            folder: &self.output,
-        };
-        let written = report::while_waiting("writing vectors", || job.write()).map_err(
-            |error| match error {
-                VectorsError::Setup(error) => planned.refused(&error),
-                other => other.into(),
-            },
-        )?;
+        let written = report::while_waiting("writing vectors", || {
+            let job = vectors::Vectors {
+                machine: &planned.machine()?,
+                selection: &selection,
+                corner_cases: self.corner_cases,
+                seed,
+                folder: &self.output,
+            };
+            job.write().map_err(Stop::from)
+        })?;
         let listing = Listing {
             world: planned.world.name(),
             folder: self.output.display().to_string(),

@@ -58,12 +58,13 @@ mod open {
     use crate::engine::Engine;
     use crate::scene::{Scene, Surface};
     use crate::sink::png;
-    use crate::view::drawing::{Drawing, MAX_PIXELS};
     use crate::view::layout::Layout;
+    use crate::view::order::MAX_PIXELS;
     use crate::view::run;
     use crate::view::script;
     use crate::view::session::Session;
     use crate::view::window::Window;
+    use crate::view::worker::RenderWorker;
 
     /// Largest window that opens unasked: scenes with a larger raster get a coarser one.
     const UNASKED: (u32, u32) = (1280, 1024);
@@ -90,7 +91,7 @@ mod open {
             let title = format!("{} - terraline", scene.name);
             let mut session = Session::new(scene, planned.plan.full, map, engine, layout);
             let order = session.order().unwrap_or_else(|| unreachable!("the first one is new"));
-            let drawing = Drawing::start(order).map_err(|error| planned.refused(&error))?;
+            let worker = RenderWorker::start(order).map_err(|error| planned.refused(&error))?;
             let mut window =
                 Window::open(&title, layout.width, layout.height).map_err(no_display)?;
             self.scene_out.write(scene_text.as_deref())?;
@@ -98,7 +99,7 @@ mod open {
                 eprintln!("chosen: {chosen}");
             }
             let mut print = |text: &str| report::print(text);
-            let mut view = run::View::new(&mut window, session, drawing, &mut print);
+            let mut view = run::View::new(&mut window, session, worker, &mut print);
             if self.frames.is_none() {
                 return Ok(view.live()?);
             }

@@ -25,12 +25,14 @@ mod solve;
 mod wide;
 mod words;
 
+use std::ops::Range;
+
 use fearless_simd::{Level, Simd as _, dispatch};
 use rayon::prelude::*;
 
-use crate::frame::{Frame, Hit};
+use crate::frame::{Buffers, Frame, Giver, Hit};
 use crate::plan::Plan;
-use crate::readout::BufferBuilder;
+use crate::readout::Reader;
 use crate::setup::{Back, Setup};
 use crate::unit::divider::Method;
 use crate::unit::{Line, Unit as _};
@@ -43,15 +45,7 @@ use words::Packed;
 const BAND: usize = 16;
 
 /// Neighbouring lines whose rays walk together.
-pub const GROUP: usize = 4;
-
-/// Draws neighbouring lines, from `first` on, on wires that hold all columns. Any number of lines
-/// will do; [`GROUP`] are drawn at a time.
-pub fn run_lines<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
-    for (group, number) in lines.chunks_mut(GROUP).zip((first..).step_by(GROUP)) {
-        W::draw_group(Level::new(), setup, number, group);
-    }
-}
+const GROUP: usize = 4;
 
 /// The SIMD levels of the processor that it runs on, the widest first.
 pub fn levels() -> Vec<Level> {
@@ -107,74 +101,82 @@ fn project<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
     }
 }
 
-/// Draws a whole frame on all threads.
-pub fn render<W: Complete + Enterable>(setup: &Setup<W>, plan: &Plan, buffers: bool) -> Frame {
-    render_at(Level::new(), setup, plan, buffers)
+/// Draws lines of a frame on all threads and shows every finished one to `look`, in no particular
+/// order. `None` if `stop`, which is asked between lines, said so.
+pub fn draw<W: Complete + Enterable>(
+    setup: &Setup<W>,
+    plan: &Plan,
+    lines: Range<u32>,
+    buffers: bool,
+    look: &(dyn Fn(&Line<W>) + Sync),
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Option<Frame> {
+    draw_at(Level::new(), setup, plan, lines, buffers, look, stop)
 }
 
-/// The same frame at one of [`levels`].
+/// A whole frame at one of [`levels`].
 pub fn render_at<W: Complete + Enterable>(
     level: Level,
     setup: &Setup<W>,
     plan: &Plan,
     buffers: bool,
 ) -> Frame {
-    draw(level, setup, plan, buffers, &|_| {})
+    draw_at(level, setup, plan, 0..setup.lines, buffers, &|_| {}, &|| false)
+        .unwrap_or_else(|| unreachable!("nobody stops it"))
 }
 
-/// Draws a whole frame and shows every finished line to `look`, in no particular order.
-pub fn render_and_look<W: Complete + Enterable>(
-    setup: &Setup<W>,
-    plan: &Plan,
-    buffers: bool,
-    look: &(impl Fn(&Line<W>) + Sync),
-) -> Frame {
-    draw(Level::new(), setup, plan, buffers, look)
-}
-
-fn draw<W: Complete + Enterable>(
+fn draw_at<W: Complete + Enterable>(
     level: Level,
     setup: &Setup<W>,
     plan: &Plan,
+    lines: Range<u32>,
     buffers: bool,
-    look: &(impl Fn(&Line<W>) + Sync),
-) -> Frame {
-    let (columns, lines) = (setup.columns as usize, setup.lines as usize);
-    let mut color = vec![[0; 3]; columns * lines];
-    let mut hit = vec![Hit::Sky; columns * lines];
-    let band = BAND * columns;
+    look: &(dyn Fn(&Line<W>) + Sync),
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Option<Frame> {
+    let (columns, count) = (setup.columns as usize, lines.len());
+    let mut color = vec![[0; 3]; columns * count];
+    let mut hit = vec![Hit::Sky; columns * count];
+    // Few lines are shared by all threads, too.
+    let band =
+        count.div_ceil(rayon::current_num_threads()).next_multiple_of(GROUP).clamp(GROUP, BAND);
+    let reader = Reader::new(plan);
     // Every band writes its own part of the picture.
-    let parts: Vec<Option<BufferBuilder<'_>>> = color
-        .par_chunks_mut(band)
-        .zip(hit.par_chunks_mut(band))
+    let parts: Option<Vec<Option<Buffers>>> = color
+        .par_chunks_mut(band * columns)
+        .zip(hit.par_chunks_mut(band * columns))
         .enumerate()
         .map_init(
             || vec![Line::new(&setup.world, 0..setup.columns); GROUP],
-            |wires, (band, (color, hit))| {
-                let mut part = buffers.then(|| BufferBuilder::new(plan, BAND, false));
+            |wires, (at, (color, hit))| {
+                let mut part = buffers.then(|| Buffers::with_room(color.len()));
                 let groups = color.chunks_mut(GROUP * columns).zip(hit.chunks_mut(GROUP * columns));
                 for (group, (color, hit)) in groups.enumerate() {
+                    if stop() {
+                        return None;
+                    }
                     let wires = &mut wires[..color.len() / columns];
-                    W::draw_group(level, setup, (band * BAND + group * GROUP) as u32, wires);
+                    let first = lines.start + (at * band + group * GROUP) as u32;
+                    W::draw_group(level, setup, first, wires);
                     let rows = color.chunks_exact_mut(columns).zip(hit.chunks_exact_mut(columns));
                     for (line, (color, hit)) in wires.iter().zip(rows) {
                         look(line);
                         color.copy_from_slice(&line.color);
                         hit.copy_from_slice(&line.hit);
                         if let Some(part) = &mut part {
-                            part.push(line);
+                            reader.read(line, Giver::Engines, part);
                         }
                     }
                 }
-                part
+                Some(part)
             },
         )
         .collect();
-    let mut whole = buffers.then(|| BufferBuilder::new(plan, lines, false));
-    for part in parts.into_iter().flatten() {
+    let mut whole = buffers.then(|| Buffers::with_room(columns * count));
+    for part in parts?.into_iter().flatten() {
         if let Some(whole) = &mut whole {
             whole.append(part);
         }
     }
-    Frame { columns, lines, color, hit, buffers: whole.map(BufferBuilder::finish) }
+    Some(Frame { columns, lines: count, color, hit, buffers: whole })
 }

@@ -14,7 +14,7 @@ use super::field::{Context, Field, Fields, is_length};
 use super::height_map::{file_reason, one_line, read_limited, shown_path};
 use super::tree::Node;
 use super::{
-    Colors, Deformation, FormatRequest, Halvings, Kernel, KernelShape, Light, Machine, Overflow,
+    Colors, Deformation, FormatRequest, Halvings, Hardware, Kernel, KernelShape, Light, Overflow,
     RatioForm, Registers, Rounding, Scene, Stepper, StepperMode, WordSize, camera, format, keys,
     screen, set, surface,
 };
@@ -114,7 +114,7 @@ pub(super) fn parse_with(
         stepper: stepper(&scene.table("stepper", &keys::STEPPER)?)?,
         light: light(&scene.table("light", &keys::LIGHT)?)?,
         color: colors(&scene.table("color", &keys::COLOR)?)?,
-        machine: machine(&scene.table("machine", &keys::MACHINE)?)?,
+        machine: hardware(&scene.table("machine", &keys::MACHINE)?)?,
         formats: formats(&scene)?,
         // Last, because the map may be large: every other mistake is found before it is read.
         surface: surface::read(&scene, surface::Maps { folder: document.folder, known })?,
@@ -221,8 +221,8 @@ fn colors(table: &Fields<'_>) -> Result<Colors, SceneError> {
     })
 }
 
-fn machine(table: &Fields<'_>) -> Result<Machine, SceneError> {
-    Ok(Machine {
+fn hardware(table: &Fields<'_>) -> Result<Hardware, SceneError> {
+    Ok(Hardware {
         clock_mhz: table.read("clock_mhz", 100.0, |clock| {
             clock.number("a clock above 0 MHz (from 1e-9 to 1e9)", is_length)
         })?,

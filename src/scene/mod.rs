@@ -68,7 +68,7 @@ pub struct Scene {
     /// Colours as sRGB bytes.
     pub color: Colors,
     /// Clock and memory of the emulated machine.
-    pub machine: Machine,
+    pub machine: Hardware,
     /// Overrides of the stock register formats: class or register name, format. Sweep world only.
     pub formats: Vec<(Registers, FormatRequest)>,
 }
@@ -359,7 +359,7 @@ pub struct Colors {
 
 /// Clock and memory of the emulated machine, and the word size asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Machine {
+pub struct Hardware {
     /// Clock in MHz.
     pub clock_mhz: f64,
     /// Cycles from address to data, 1..=64.

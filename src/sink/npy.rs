@@ -4,6 +4,8 @@
 
 use std::io::{self, Read};
 
+pub use crate::frame::Dtype;
+
 /// Most elements that an array may claim to have.
 pub const MAX_ELEMENTS: u64 = 1 << 30;
 
@@ -14,37 +16,6 @@ pub const MAX_AXES: usize = 8;
 const MAX_DICTIONARY: usize = 1 << 14;
 
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
-
-/// Type of the elements, little-endian.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Dtype {
-    /// `|u1`
-    U1,
-    /// `<u4`
-    U4,
-    /// `<f8`
-    F8,
-}
-
-impl Dtype {
-    /// As numpy writes it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::U1 => "|u1",
-            Self::U4 => "<u4",
-            Self::F8 => "<f8",
-        }
-    }
-
-    /// Bytes of an element.
-    pub fn bytes(self) -> usize {
-        match self {
-            Self::U1 => 1,
-            Self::U4 => 4,
-            Self::F8 => 8,
-        }
-    }
-}
 
 /// Type and shape of an array in C order.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Buffers as a `.npz` file: a zip archive of `.npy` arrays, as numpy's `load` reads it.
 
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, ErrorKind, Read, Seek, Write};
+use std::io::{self, BufReader, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use zip::read::ZipFile;
@@ -20,97 +20,42 @@ const CHUNK: usize = 1 << 14;
 
 const WHOLE_FILE: &str = "give a whole .npz file, as numpy's savez or this program writes it";
 
-/// Writes what is known about the pixels of a frame.
-///
-/// Always `hit` (`|u1`, the discriminants of [`Hit`](crate::frame::Hit)) and `color` (`|u1`, with
-/// a third axis of 3); with buffers `lambda`, `ground_x`, `ground_z`, `height` (`<f8`), `normal`
-/// (`<f8`, third axis of 3), `steps` (`<u4`), and `trials` (`<u4`) where it was counted. All have
-/// the axes lines and columns, in C order. The same frame gives the same bytes. Arrays are
-/// compressed piece by piece; nothing is held in memory twice.
+/// Writes the arrays of a frame, those of [`frame::TABLE`](crate::frame::TABLE) that it holds, as
+/// their entries describe them: lines and columns are the first axes, in C order. The same frame
+/// gives the same bytes. Arrays are compressed piece by piece; nothing is held in memory twice.
 ///
 /// # Errors
 /// [`SinkError`]; nothing is left half-written.
 pub fn write(path: &Path, frame: &Frame) -> Result<(), SinkError> {
-    check_sizes(path, frame)?;
+    let (columns, lines) = (frame.columns, frame.lines);
+    for (entry, scalars) in frame.arrays() {
+        let found = scalars.len() / entry.components;
+        if Some(found) != columns.checked_mul(lines) {
+            let (path, array) = (path.to_owned(), entry.name);
+            return Err(SinkError::Shape { path, array, columns, lines, found });
+        }
+    }
     write_atomically(path, |out| {
         let mut zip = ZipWriter::new(out);
-        let shape = [frame.lines, frame.columns];
-        let shape_of_3 = [frame.lines, frame.columns, 3];
-        put(&mut zip, "hit", Dtype::U1, &shape, &frame.hit, |&hit| [hit as u8])?;
-        if let Some(buffers) = &frame.buffers {
-            let planes = [
-                ("lambda", &buffers.lambda),
-                ("ground_x", &buffers.ground_x),
-                ("ground_z", &buffers.ground_z),
-                ("height", &buffers.height),
-            ];
-            for (name, values) in planes {
-                put(&mut zip, name, Dtype::F8, &shape, values, |v| v.to_le_bytes())?;
-            }
-            let normal = buffers.normal.as_flattened();
-            put(&mut zip, "normal", Dtype::F8, &shape_of_3, normal, |v| v.to_le_bytes())?;
-            put(&mut zip, "steps", Dtype::U4, &shape, &buffers.steps, |v| v.to_le_bytes())?;
-            if let Some(trials) = &buffers.trials {
-                put(&mut zip, "trials", Dtype::U4, &shape, trials, |v| v.to_le_bytes())?;
+        // Sizes are known only afterwards, so that room for 64 bits is left in every case.
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Deflated)
+            .compression_level(Some(6))
+            .last_modified_time(DateTime::DEFAULT)
+            .unix_permissions(0o644)
+            .system(System::Unix)
+            .large_file(true);
+        for (entry, scalars) in frame.arrays() {
+            zip.start_file(format!("{}.npy", entry.name), options)?;
+            let header = Header { dtype: entry.dtype, shape: entry.shape(lines, columns) };
+            zip.write_all(&header.to_bytes())?;
+            for piece in scalars.pieces(CHUNK) {
+                zip.write_all(&piece)?;
             }
         }
-        let color = frame.color.as_flattened();
-        put(&mut zip, "color", Dtype::U1, &shape_of_3, color, |&v| [v])?;
         zip.finish()?;
         Ok(())
     })
-}
-
-/// Every array has one value per pixel.
-fn check_sizes(path: &Path, frame: &Frame) -> Result<(), SinkError> {
-    let (columns, lines) = (frame.columns, frame.lines);
-    let mut sizes = vec![("hit", frame.hit.len()), ("color", frame.color.len())];
-    if let Some(buffers) = &frame.buffers {
-        sizes.extend([
-            ("lambda", buffers.lambda.len()),
-            ("ground_x", buffers.ground_x.len()),
-            ("ground_z", buffers.ground_z.len()),
-            ("height", buffers.height.len()),
-            ("normal", buffers.normal.len()),
-            ("steps", buffers.steps.len()),
-        ]);
-        sizes.extend(buffers.trials.iter().map(|trials| ("trials", trials.len())));
-    }
-    let pixels = columns.checked_mul(lines);
-    match sizes.into_iter().find(|&(_, found)| Some(found) != pixels) {
-        None => Ok(()),
-        Some((array, found)) => {
-            Err(SinkError::Shape { path: path.to_owned(), array, columns, lines, found })
-        }
-    }
-}
-
-/// Writes one array.
-fn put<T, const N: usize>(
-    zip: &mut ZipWriter<&mut BufWriter<File>>,
-    name: &str,
-    dtype: Dtype,
-    shape: &[usize],
-    values: &[T],
-    bytes: impl Fn(&T) -> [u8; N],
-) -> io::Result<()> {
-    // Sizes are known only afterwards, so that room for 64 bits is left in every case.
-    let options = SimpleFileOptions::default()
-        .compression_method(CompressionMethod::Deflated)
-        .compression_level(Some(6))
-        .last_modified_time(DateTime::DEFAULT)
-        .unix_permissions(0o644)
-        .system(System::Unix)
-        .large_file(true);
-    zip.start_file(format!("{name}.npy"), options)?;
-    zip.write_all(&Header { dtype, shape: shape.to_vec() }.to_bytes())?;
-    let mut buffer = Vec::with_capacity(CHUNK * N);
-    for chunk in values.chunks(CHUNK) {
-        buffer.clear();
-        buffer.extend(chunk.iter().flat_map(&bytes));
-        zip.write_all(&buffer)?;
-    }
-    Ok(())
 }
 
 /// A `.npz` file opened for reading; arrays are read one after the other, piece by piece.

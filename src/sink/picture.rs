@@ -5,7 +5,7 @@
 
 use clap::ValueEnum;
 
-use crate::frame::Frame;
+use crate::engine::Band;
 
 /// Colour of a pixel without a value (a miss): a dark neutral grey that no ramp passes through.
 pub const NOTHING: [u8; 3] = [56, 56, 56];
@@ -91,17 +91,19 @@ impl Picture {
         }
     }
 
-    /// The picture of a frame; `None` if the frame has no buffers and the picture needs them, and
-    /// for `Error` and `Cycles`, which a frame does not hold: see [`error`] and [`cycles`].
-    pub fn of_frame(self, frame: &Frame) -> Option<Painted> {
-        let buffers = frame.buffers.as_ref();
-        match self {
-            Self::Color => Some(Painted { pixels: frame.color.clone(), legend: None }),
-            Self::Height => buffers.map(|b| height(&b.height)),
-            Self::Normal => buffers.map(|b| normal(&b.normal)),
-            Self::Steps => buffers.map(|b| steps(&b.steps)),
-            Self::Error | Self::Cycles => None,
-        }
+    /// The picture of what was drawn or measured; `None` if it lacks what the picture shows.
+    #[must_use]
+    pub fn of(self, band: &Band) -> Option<Painted> {
+        let buffers = band.frame.buffers.as_ref();
+        Some(match self {
+            Self::Color => Painted { pixels: band.frame.color.clone(), legend: None },
+            Self::Height => height(&buffers?.height),
+            Self::Normal => normal(&buffers?.normal),
+            Self::Steps => steps(&buffers?.steps),
+            Self::Error if !band.errors.is_empty() => error(&band.errors, &band.silhouettes),
+            Self::Cycles if !band.cycles.is_empty() => cycles(&band.cycles),
+            Self::Error | Self::Cycles => return None,
+        })
     }
 }
 
@@ -326,18 +328,15 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_gives_what_it_has() {
-        let mut frame = Frame {
-            columns: 1,
-            lines: 1,
-            color: vec![[1, 2, 3]],
-            hit: vec![crate::frame::Hit::Surface],
-            buffers: None,
-        };
-        let given = |frame: &Frame| Picture::ALL.map(|p| p.of_frame(frame).is_some());
-        assert_eq!(given(&frame), [true, false, false, false, false, false]);
-        frame.buffers = Some(Default::default());
-        assert_eq!(given(&frame), [true, true, true, true, false, false]);
-        assert_eq!(Picture::Color.of_frame(&frame).unwrap().pixels, [[1, 2, 3]]);
+    fn a_band_gives_what_it_has() {
+        let mut band = Band::default();
+        band.frame.color = vec![[1, 2, 3]];
+        let given = |band: &Band| Picture::ALL.map(|p| p.of(band).is_some());
+        assert_eq!(given(&band), [true, false, false, false, false, false]);
+        band.frame.buffers = Some(Default::default());
+        assert_eq!(given(&band), [true, true, true, true, false, false]);
+        (band.errors, band.silhouettes, band.cycles) = (vec![0.5], vec![false], vec![1]);
+        assert_eq!(given(&band), [true; 6]);
+        assert_eq!(Picture::Color.of(&band).unwrap().pixels, [[1, 2, 3]]);
     }
 }

@@ -20,12 +20,9 @@ use serde::Serialize;
 use super::SinkError;
 use super::folder::NewFolder;
 use crate::clock::Chain;
-use crate::engine::{FixedWorld, InFixedWorld};
-use crate::fast::enter::Enterable;
-use crate::plan::Plan;
+use crate::engine::{FixedWorld, Machine, WithSetup};
 use crate::processor::Processor;
-use crate::scene::Scene;
-use crate::setup::{Back, Memory, Setup, SetupError, table};
+use crate::setup::{Back, Setup, table};
 use crate::unit::{Line, Unit as _};
 use crate::word::{Complete, Overflow, Register, Rounding};
 use bench::Benches;
@@ -42,9 +39,6 @@ const CHUNK: u32 = 4096;
 /// Why vectors are not written.
 #[derive(Debug, thiserror::Error)]
 pub enum VectorsError {
-    /// The registers cannot be loaded.
-    #[error(transparent)]
-    Setup(#[from] SetupError),
     /// A file cannot be written.
     #[error(transparent)]
     Sink(#[from] SinkError),
@@ -57,14 +51,10 @@ pub enum VectorsError {
 }
 
 /// The vectors of a scene, to be written in its fixed world.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Vectors<'a> {
-    /// Scene.
-    pub scene: &'a Scene,
-    /// Its plan.
-    pub plan: &'a Plan,
-    /// Its world.
-    pub world: &'a FixedWorld,
+    /// The machine of the scene.
+    pub machine: &'a Machine<'a>,
     /// Pixels whose wires become rows.
     pub selection: &'a Selection,
     /// Corner cases of every unit.
@@ -88,27 +78,27 @@ impl Vectors<'_> {
     /// Writes the folder, whole or not at all.
     ///
     /// # Errors
-    /// If the scene cannot be set up, a register rounds stochastically, or a file cannot be
-    /// written.
+    /// If a register rounds stochastically, or a file cannot be written.
     pub fn write(self) -> Result<Report, VectorsError> {
-        if let FixedWorld::Sweep(world) = self.world {
+        if let FixedWorld::Sweep(world) = self.machine.world() {
             let stochastic = |r: &&Register| world.format(**r).rounding == Rounding::Stochastic;
             if let Some(&register) = Register::ALL.iter().find(stochastic) {
                 return Err(VectorsError::Stochastic(register));
             }
         }
-        self.world.run(self)
+        self.machine.run(self)
     }
 
     /// Lines that the headers of all files share.
     fn scene_lines(&self) -> Vec<String> {
-        let screen = &self.plan.screen;
-        let fitted = if self.plan.full { "every unit fitted" } else { "pruned" };
+        let (scene, plan) = (self.machine.scene(), self.machine.plan());
+        let screen = &plan.screen;
+        let fitted = if plan.full { "every unit fitted" } else { "pruned" };
         vec![
-            format!("scene {}", self.scene.name.escape_default()),
+            format!("scene {}", scene.name.escape_default()),
             format!("screen {} {} {}", screen.columns, screen.lines, screen.name.escape_default()),
             format!("program terraline {}", env!("CARGO_PKG_VERSION")),
-            format!("world {}, {fitted}", self.world.name()),
+            format!("world {}, {fitted}", self.machine.world().name()),
             format!("pixels {}", self.selection.said),
             format!("seed {}", self.seed),
         ]
@@ -118,7 +108,7 @@ impl Vectors<'_> {
     fn formats<W: Complete>(&self, world: &W, registers: &[Register]) -> Vec<String> {
         let line = |&register: &Register| {
             let word = notation(world, register);
-            let rule = match self.world {
+            let rule = match self.machine.world() {
                 FixedWorld::Sweep(sweep) => {
                     let format = sweep.format(register);
                     format!("{} {}", format.rounding.name(), format.overflow.name())
@@ -139,16 +129,14 @@ struct Files<'a> {
     scene: &'a [String],
 }
 
-impl InFixedWorld for Vectors<'_> {
+impl WithSetup for Vectors<'_> {
     type Output = Result<Report, VectorsError>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-        let memory = Memory::new(&world, self.scene, self.plan)?;
-        let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
+    fn run<W: Complete>(self, setup: &Setup<W>) -> Self::Output {
         let folder = NewFolder::begin(self.folder)?;
         let scene = self.scene_lines();
         let files = Files { vectors: self, folder: &folder, scene: &scene };
-        let written = files.write(&setup)?;
+        let written = files.write(setup)?;
         folder.finish()?;
         let bytes = written.iter().map(|file| file.bytes).sum();
         Ok(Report { files: written, bytes })

@@ -10,6 +10,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::ssim::ssim;
+use crate::frame::{Giver, TABLE};
 use crate::sink::ReadError;
 use crate::sink::npz::Npz;
 use crate::sink::png::{self, Image};
@@ -67,15 +68,18 @@ pub enum Comparison {
 impl Comparison {
     /// True if no value differs by more than `max_difference` (levels of 255 in pictures, the
     /// units of each array in buffers), no value is finite or NaN on one side only, and no array
-    /// but `trials` is missing on one side: those are the processor's alone.
+    /// is missing on one side but those that not every engine gives.
     pub fn is_within(&self, max_difference: f64) -> bool {
         match self {
             Self::Picture(picture) => f64::from(picture.max_difference) <= max_difference,
             Self::Buffers(buffers) => {
                 let close =
                     |a: &ArrayComparison| a.max_difference <= max_difference && a.unmatched == 0;
-                let missing = buffers.only_in_a.iter().chain(&buffers.only_in_b);
-                missing.filter(|name| *name != "trials").count() == 0
+                let of_all = |name: &String| {
+                    let entry = TABLE.iter().find(|entry| entry.name == name);
+                    entry.is_none_or(|entry| entry.giver == Giver::Engines)
+                };
+                !buffers.only_in_a.iter().chain(&buffers.only_in_b).any(of_all)
                     && buffers.arrays.iter().all(close)
             }
         }

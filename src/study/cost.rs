@@ -5,12 +5,11 @@ use serde::Serialize;
 
 use super::error::Sample;
 use crate::clock::{Chain, Clock};
-use crate::engine::InFixedWorld;
-use crate::fast::enter::Enterable;
+use crate::engine::{Machine, Memories, WithSetup};
 use crate::plan::Plan;
 use crate::processor::{self, Processor};
 use crate::scene::Scene;
-use crate::setup::{Memory, Setup, SetupError};
+use crate::setup::{Setup, SetupError};
 use crate::unit::{Reads, Unit, divider};
 use crate::word::tally::{Operations, Tally, counted};
 use crate::word::{Complete, World};
@@ -63,30 +62,34 @@ pub struct Cost {
     pub units: Vec<UnitCost>,
 }
 
-/// The measurement, to be run in a fixed world.
-#[derive(Clone, Copy, Debug)]
-pub struct Measure<'a> {
-    /// Scene.
-    pub scene: &'a Scene,
-    /// Its plan.
-    pub plan: &'a Plan,
-    /// Lines whose cycles are counted.
-    pub cycles: &'a Sample,
-    /// Lines whose operations are counted.
-    pub operations: &'a Sample,
+impl Machine<'_> {
+    /// The cost of a frame: cycles from the lines of one sample, operations from those of another,
+    /// which may have none.
+    ///
+    /// # Errors
+    /// If the scene cannot be set up to have its operations counted.
+    pub fn cost(&self, cycles: &Sample, operations: &Sample) -> Result<Cost, SetupError> {
+        self.run(Measure { scene: self.scene(), plan: self.plan(), cycles, operations })
+    }
 }
 
-impl InFixedWorld for Measure<'_> {
+/// The measurement in a fixed world.
+struct Measure<'a> {
+    scene: &'a Scene,
+    plan: &'a Plan,
+    cycles: &'a Sample,
+    operations: &'a Sample,
+}
+
+impl WithSetup for Measure<'_> {
     type Output = Result<Cost, SetupError>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-        let memory = Memory::new(&world, self.scene, self.plan)?;
-        let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
+    fn run<W: Complete>(self, setup: &Setup<W>) -> Self::Output {
         let chain = setup.chain();
-        let mut clock = Clock::new(Chain::new(&setup));
+        let mut clock = Clock::new(Chain::new(setup));
         let mut reads = vec![Reads::default(); chain.len()];
-        let mut line = Processor::new(&setup).wires();
-        processor::run_lines(&setup, &mut line, self.cycles.lines.iter().copied(), |line| {
+        let mut line = Processor::new(setup).wires();
+        processor::run_lines(setup, &mut line, self.cycles.lines.iter().copied(), |line| {
             clock.take_line(line, |_, _| {});
             for (unit, reads) in chain.iter().zip(&mut reads) {
                 for (&work, &hit) in line.work.iter().zip(&line.hit) {
@@ -96,16 +99,19 @@ impl InFixedWorld for Measure<'_> {
                 }
             }
         });
-        let operations = self.operations(Tally(world))?;
-        Ok(self.report(&setup, &clock, &reads, &operations))
+        let operations = if self.operations.is_empty() {
+            vec![Operations::default(); chain.len()]
+        } else {
+            self.operations(Tally(setup.world))?
+        };
+        Ok(self.report(setup, &clock, &reads, &operations))
     }
 }
 
 impl Measure<'_> {
     /// Operations of every unit over the sampled lines.
     fn operations<W: Complete>(&self, world: W) -> Result<Vec<Operations>, SetupError> {
-        let memory = Memory::new(&world, self.scene, self.plan)?;
-        let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
+        let setup = Memories::default().set_up(world, self.scene, self.plan)?;
         let mut processor = Processor::new(&setup);
         let mut line = processor.wires();
         let mut totals = vec![Operations::default(); processor.chain().len()];

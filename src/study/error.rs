@@ -8,15 +8,13 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::engine::{self, FixedWorld, InFixedWorld};
-use crate::fast::enter::Enterable;
+use crate::engine::{Band, Machine, Scan, WithSetup};
 use crate::frame::Hit;
 use crate::oracle::Oracle;
 use crate::plan::Plan;
 use crate::processor;
 use crate::readout::Reader;
-use crate::scene::Scene;
-use crate::setup::{Memory, Setup, SetupError};
+use crate::setup::{Setup, SetupError};
 use crate::unit::Line;
 use crate::word::Complete;
 use crate::word::format::mix;
@@ -123,83 +121,92 @@ struct Seen {
     color: [u8; 3],
 }
 
-/// Fixed point, the units in f64 and the oracle of one frame, set up to compare any of its pixels.
-#[derive(Clone, Copy, Debug)]
-pub struct Comparison<'a, W: Complete> {
-    /// The plan of all three.
-    pub plan: &'a Plan,
-    /// The machine.
-    pub fixed: &'a Setup<W>,
-    /// The same units in f64.
-    pub real: &'a Setup<Real>,
-    /// The closed form.
-    pub oracle: &'a Oracle,
+/// Lines that are compared with the oracle at once, on all threads.
+const AT_ONCE: usize = 4;
+
+impl Machine<'_> {
+    /// Errors of all sampled pixels, line by line.
+    ///
+    /// # Errors
+    /// If the scene cannot be set up in f64.
+    pub fn errors(&self, sample: &Sample) -> Result<Vec<PixelError>, SetupError> {
+        Ok(Comparison { machine: self, real: self.real()? }.pixels(sample))
+    }
+
+    /// The errors of sampled pixels, line by line: of the algorithm alone, or in all.
+    ///
+    /// # Errors
+    /// If the scene cannot be set up in f64.
+    pub fn scan_errors(&self, sample: Sample, algorithm: bool) -> Result<Scan<'_>, SetupError> {
+        let comparison = Comparison { machine: self, real: self.real()? };
+        Ok(Scan::new(0..sample.lines.len() as u32, move |lines, stop| {
+            let mut band = Band::default();
+            for lines in sample.lines[lines.start as usize..lines.end as usize].chunks(AT_ONCE) {
+                if stop() {
+                    return None;
+                }
+                let part = Sample { lines: lines.to_vec(), columns: sample.columns.clone() };
+                for pixel in comparison.pixels(&part) {
+                    band.errors.push(if algorithm { pixel.algorithm_px } else { pixel.total_px });
+                    band.silhouettes.push(pixel.sheet == Sheet::Silhouette);
+                }
+            }
+            Some(band)
+        }))
+    }
 }
 
-impl<W: Complete> Comparison<'_, W> {
-    /// Errors of all sampled pixels, line by line.
-    pub fn pixels(&self, sample: &Sample) -> Vec<PixelError> {
-        let real = look(self.plan, self.real, sample);
-        let fixed = look(self.plan, self.fixed, sample);
+/// A machine beside the same units in f64 and the oracle.
+struct Comparison<'a> {
+    machine: &'a Machine<'a>,
+    real: &'a Setup<Real>,
+}
+
+impl Comparison<'_> {
+    fn pixels(&self, sample: &Sample) -> Vec<PixelError> {
+        let (plan, oracle) = (self.machine.plan(), self.machine.oracle());
+        let look = Look { plan, sample };
+        let real = look.run(self.real);
+        let fixed = self.machine.run(look);
         let lines: Vec<_> = sample.lines.iter().zip(fixed.iter().zip(&real)).collect();
         lines
             .par_iter()
             .flat_map_iter(|(line, (fixed, real))| {
-                sample.columns.iter().zip(fixed.iter().zip(real.iter())).map(
-                    move |(&column, (fixed, real))| one(self.oracle, **line, column, *fixed, *real),
-                )
+                sample
+                    .columns
+                    .iter()
+                    .zip(fixed.iter().zip(real.iter()))
+                    .map(move |(&column, (fixed, real))| one(oracle, **line, column, *fixed, *real))
             })
             .collect()
     }
 }
 
 /// The sampled pixels of the line-by-line processor, by line.
-fn look<W: Complete>(plan: &Plan, setup: &Setup<W>, sample: &Sample) -> Vec<Vec<Seen>> {
-    let reader = Reader::new(plan);
-    let mut line = Line::new(&setup.world, sample.columns.iter().copied());
-    let mut lines = Vec::with_capacity(sample.lines.len());
-    processor::run_lines(setup, &mut line, sample.lines.iter().copied(), |line| {
-        let seen = (0..line.len()).map(|i| Seen {
-            hit: line.hit[i],
-            point: reader.pixel(line, i).map(|pixel| pixel.point),
-            color: line.color[i],
-        });
-        lines.push(seen.collect());
-    });
-    lines
-}
-
-struct Compare<'a> {
-    scene: &'a Scene,
+#[derive(Clone, Copy)]
+struct Look<'a> {
     plan: &'a Plan,
     sample: &'a Sample,
 }
 
-impl InFixedWorld for Compare<'_> {
-    type Output = Result<Vec<PixelError>, SetupError>;
+impl WithSetup for Look<'_> {
+    type Output = Vec<Vec<Seen>>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-        let Self { scene, plan, sample } = self;
-        let memory = Memory::new(&Real, scene, plan)?;
-        let real = Setup::new(Real, scene, plan, memory.as_ref())?;
-        let memory = Memory::new(&world, scene, plan)?;
-        let fixed = Setup::new(world, scene, plan, memory.as_ref())?;
-        let oracle = engine::oracle(scene, plan);
-        Ok(Comparison { plan, fixed: &fixed, real: &real, oracle: &oracle }.pixels(sample))
+    fn run<W: Complete>(self, setup: &Setup<W>) -> Self::Output {
+        let Self { plan, sample } = self;
+        let reader = Reader::new(plan);
+        let mut line = Line::new(&setup.world, sample.columns.iter().copied());
+        let mut lines = Vec::with_capacity(sample.lines.len());
+        processor::run_lines(setup, &mut line, sample.lines.iter().copied(), |line| {
+            let seen = (0..line.len()).map(|i| Seen {
+                hit: line.hit[i],
+                point: reader.pixel(line, i).map(|pixel| pixel.point()),
+                color: line.color[i],
+            });
+            lines.push(seen.collect());
+        });
+        lines
     }
-}
-
-/// Errors of all sampled pixels, line by line.
-///
-/// # Errors
-/// If the scene cannot be set up.
-pub fn pixels(
-    scene: &Scene,
-    plan: &Plan,
-    world: &FixedWorld,
-    sample: &Sample,
-) -> Result<Vec<PixelError>, SetupError> {
-    world.run(Compare { scene, plan, sample })
 }
 
 fn one(oracle: &Oracle, line: u32, column: u32, fixed: Seen, real: Seen) -> PixelError {

@@ -8,15 +8,11 @@ mod trace;
 use serde::Serialize;
 
 use super::bounds;
-use crate::engine::{self, FixedWorld};
-use crate::frame::Hit;
-use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::engine::{Machine, WithSetup as _};
 use crate::setup::coefficients::Coefficients;
 use crate::setup::{SetupError, table};
 use crate::unit::Wire;
 use crate::word::Register;
-use crate::word::real::Real;
 use closed::Closed;
 use quantity::{Axis, Quantity};
 use trace::{Reading, Trace, Walk};
@@ -81,78 +77,64 @@ pub struct Explanation {
     pub rows: Vec<Row>,
 }
 
-/// Name of an outcome.
-pub fn hit_name(hit: Hit) -> &'static str {
-    match hit {
-        Hit::Sky => "sky",
-        Hit::Surface => "surface",
-        Hit::Side => "side",
-        Hit::Far => "far",
-    }
-}
-
-/// Explains a pixel.
-///
-/// # Errors
-/// If the scene cannot be set up.
-pub fn explain(
-    scene: &Scene,
-    plan: &Plan,
-    world: &FixedWorld,
-    column: u32,
-    line: u32,
-) -> Result<Explanation, SetupError> {
-    let fixed = world.run(Walk { scene, plan, column, line, index: None })?;
-    let index = Some(fixed.steps);
-    let real = Walk { scene, plan, column, line, index }.trace(Real)?;
-    let oracle = engine::oracle(scene, plan);
-    let sighting = oracle.pixel(line.into(), column.into());
-    let closed = Closed {
-        scene,
-        plan,
-        coefficients: Coefficients::new(plan),
-        direction: oracle.direction(line.into(), column.into()),
-        eye: oracle.eye(),
-        sighting,
-    };
-    let rows = fixed
-        .readings
-        .iter()
-        .map(|reading| {
-            let register = reading.quantity.register();
-            let format = fixed.formats[register as usize];
-            let real_value = real.value(reading.quantity);
-            Row {
-                unit: reading.unit,
-                what: reading.quantity.to_string(),
-                register: register.name(),
-                format: format.map_or_else(|| "f64".into(), |format| format.to_string()),
-                raw: reading.raw,
-                value: reading.value,
-                real: real_value,
-                oracle: closed.value(reading.quantity),
-                error: real_value.map(|real| reading.value - real),
-                bound: bound(&fixed, reading, &closed.coefficients, column, line),
-                equations: table::entry(register).equations,
-            }
+impl Machine<'_> {
+    /// Explains a pixel.
+    ///
+    /// # Errors
+    /// If the scene cannot be set up in f64.
+    pub fn explain(&self, column: u32, line: u32) -> Result<Explanation, SetupError> {
+        let plan = self.plan();
+        let fixed = self.run(Walk { column, line, index: None });
+        let real = Walk { column, line, index: Some(fixed.steps) }.run(self.real()?);
+        let oracle = self.oracle();
+        let sighting = oracle.pixel(line.into(), column.into());
+        let closed = Closed {
+            scene: self.scene(),
+            plan,
+            coefficients: Coefficients::new(plan),
+            direction: oracle.direction(line.into(), column.into()),
+            eye: oracle.eye(),
+            sighting,
+        };
+        let rows = fixed
+            .readings
+            .iter()
+            .map(|reading| {
+                let register = reading.quantity.register();
+                let format = fixed.formats[register as usize];
+                let real_value = real.value(reading.quantity);
+                Row {
+                    unit: reading.unit,
+                    what: reading.quantity.to_string(),
+                    register: register.name(),
+                    format: format.map_or_else(|| "f64".into(), |format| format.to_string()),
+                    raw: reading.raw,
+                    value: reading.value,
+                    real: real_value,
+                    oracle: closed.value(reading.quantity),
+                    error: real_value.map(|real| reading.value - real),
+                    bound: bound(&fixed, reading, &closed.coefficients, column, line),
+                    equations: table::entry(register).equations,
+                }
+            })
+            .collect();
+        Ok(Explanation {
+            column,
+            line,
+            hit: fixed.hit.name(),
+            real_hit: real.hit.name(),
+            oracle_hit: sighting.hit.name(),
+            steps: fixed.steps,
+            trials: fixed.work.trials,
+            samples: fixed.work.samples,
+            halvings: fixed.work.halvings,
+            color: fixed.color,
+            oracle_color: sighting.color,
+            turned_away: fixed.turned_away,
+            hole: fixed.hole,
+            rows,
         })
-        .collect();
-    Ok(Explanation {
-        column,
-        line,
-        hit: hit_name(fixed.hit),
-        real_hit: hit_name(real.hit),
-        oracle_hit: hit_name(sighting.hit),
-        steps: fixed.steps,
-        trials: fixed.work.trials,
-        samples: fixed.work.samples,
-        halvings: fixed.work.halvings,
-        color: fixed.color,
-        oracle_color: sighting.color,
-        turned_away: fixed.turned_away,
-        hole: fixed.hole,
-        rows,
-    })
+    }
 }
 
 /// The derived bound of a reading, where there is one.

@@ -1,8 +1,10 @@
-//! Studies: what the machine's frames are worth, and what they cost.
+//! What a scene's machine is worth and what it costs. Each study is asked of a
+//! [`Machine`](crate::engine::Machine).
 
 pub mod bounds;
 pub mod compare;
 pub mod cost;
 pub mod error;
 pub mod explain;
+pub mod probe;
 pub mod ssim;

@@ -69,7 +69,7 @@ pub enum Action {
 /// What an action asks of the world outside.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// Grant one line to the drawing.
+    /// Grant one line to the render worker.
     Line,
     /// Explain a pixel (column, line).
     Explain(u32, u32),

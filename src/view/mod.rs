@@ -1,9 +1,9 @@
 //! The window: the scan as it is produced, with mouse and keys.
 //!
 //! ```text
-//! glass (window) --input--> hands --actions--> session --order--> drawing (thread)
+//! glass (window) --input--> hands --actions--> session --order--> render worker
 //!       ^                                         |                    |
-//!       +------------- canvas <-------------------+------- shown <-----+
+//!       +------------- canvas <-------------------+----- snapshot <----+
 //! ```
 //!
 //! - [`mod@input`]: keys and mouse of one tick, and [`input::Hands`], which turn them into actions
@@ -11,8 +11,9 @@
 //! - [`script`]: the same from a text, for runs without hands.
 //! - [`session`]: what is being looked at and how; actions change it. [`camera`] moves the craft,
 //!   [`pane`] says what each side of the divider shows.
-//! - [`drawing`]: the thread that draws what the session orders, in passes from coarse to fine
-//!   ([`passes`]), with the engines set up in [`machine`].
+//! - [`worker`]: the render worker, a thread that draws what the session orders ([`order`]) and
+//!   hands out [`snapshot`]s over a [`desk`]: in `passes` from coarse (`preview`) to fine, with the
+//!   state of `renderer`.
 //! - [`canvas`]: everything that is seen, as one picture.
 //! - [`run`]: the loop between a [`run::Glass`] and the rest; `window` is the one that opens a
 //!   window, and the only file that knows how.
@@ -20,20 +21,19 @@
 pub mod action;
 pub mod camera;
 pub mod canvas;
-pub mod drawing;
+pub mod desk;
 pub mod ground;
 pub mod input;
 pub mod layout;
-pub mod machine;
+pub mod order;
 pub mod pace;
 pub mod pane;
-pub mod passes;
+mod passes;
 mod preview;
-pub mod probe;
+mod renderer;
 pub mod run;
 pub mod script;
 pub mod session;
-pub mod shown;
-pub mod sources;
-mod values;
+pub mod snapshot;
 pub mod window;
+pub mod worker;

@@ -3,7 +3,7 @@
 /// Lines per second, slowest first; beyond the last one lies the full rate.
 const SPEEDS: [u32; 7] = [1, 4, 16, 64, 256, 1024, 4096];
 
-/// Pace of the scan. Lines are granted to the drawing as time passes.
+/// Pace of the scan. Lines are granted to the render worker as time passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
     /// Index into the speeds; their number is the full rate.

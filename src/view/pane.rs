@@ -1,4 +1,4 @@
-//! What one side of the divider shows: a picture, and who draws it.
+//! What one side of the divider shows: a picture, and the engine that draws it.
 
 use crate::engine::Engine;
 use crate::sink::picture::Picture;
@@ -6,27 +6,19 @@ use crate::sink::picture::Picture;
 /// A picture by an engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pane {
-    /// Who draws.
+    /// Its engine.
     pub engine: Engine,
     /// What is seen.
     pub picture: Picture,
 }
 
-/// Work that gives the values of a picture.
+/// What gives the values of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
-    /// Frames of the fast engine.
-    Fast,
-    /// Frames of the processor, with cycles.
-    Processor,
-    /// Frames of the units in f64.
-    Real,
-    /// Frames of the oracle.
-    Oracle,
-    /// Fixed point compared with the oracle.
-    FixedError,
-    /// The units in f64 compared with the oracle.
-    RealError,
+    /// Frames of an engine; the processor's with cycles.
+    Frame(Engine),
+    /// The processor's units, in fixed point or in f64, compared with the oracle.
+    Error(Engine),
 }
 
 impl Pane {
@@ -38,7 +30,9 @@ impl Pane {
         match (self.picture, self.engine) {
             // Fast engine and processor draw the same frame, so they have the same cycles: the
             // processor's, which alone takes any.
-            (Picture::Cycles, Engine::Fast | Engine::Processor) => Ok(Source::Processor),
+            (Picture::Cycles, Engine::Fast | Engine::Processor) => {
+                Ok(Source::Frame(Engine::Processor))
+            }
             (Picture::Cycles, _) => {
                 Err("only the machine takes cycles: G for the processor, or another picture")
             }
@@ -48,15 +42,12 @@ impl Pane {
             (Picture::Steps, Engine::Oracle) => {
                 Err("the oracle takes no steps: G for another engine, or another picture")
             }
-            (Picture::Error, Engine::Real) => Ok(Source::RealError),
-            (Picture::Error, _) => Ok(Source::FixedError),
+            (Picture::Error, Engine::Real) => Ok(Source::Error(Engine::Real)),
+            (Picture::Error, _) => Ok(Source::Error(Engine::Processor)),
             (_, Engine::Fast) if !fast_can => {
                 Err("the fast engine cannot draw saturating registers: G for the processor")
             }
-            (_, Engine::Fast) => Ok(Source::Fast),
-            (_, Engine::Processor) => Ok(Source::Processor),
-            (_, Engine::Real) => Ok(Source::Real),
-            (_, Engine::Oracle) => Ok(Source::Oracle),
+            (_, engine) => Ok(Source::Frame(engine)),
         }
     }
 

@@ -1,20 +1,13 @@
 //! Coarse pictures before the true ones.
 
-use std::sync::Arc;
 use std::time::Duration;
 
-use crate::plan::WordClass;
-use crate::scene::{Scene, WordSize};
-use crate::setup::SetupError;
-use crate::sink::picture;
-use crate::study::error::{Sample, Sheet};
-
-use super::drawing::{Desk, Order};
-use super::machine::{Machine, machine};
 use super::pane::Source;
-use super::passes::{Drawer, Superseded};
-use super::sources::error_px;
-use super::values::{Task, Values};
+use super::renderer::{End, Job, Renderer, Task};
+use crate::engine::{Band, Engine, Machine};
+use crate::plan::{Plan, WordClass};
+use crate::scene::{Scene, WordSize};
+use crate::study::error::Sample;
 
 /// A frame that takes longer is drawn coarsely first.
 const PATIENCE: Duration = Duration::from_millis(30);
@@ -22,122 +15,84 @@ const PATIENCE: Duration = Duration::from_millis(30);
 /// Time that a coarse frame may take.
 const PREVIEW: f64 = 0.02;
 
-impl Drawer {
+impl Renderer {
     /// Coarse pictures of all panes, where the true ones would take long.
-    pub(super) fn preview(
-        &mut self,
-        machine: &dyn Machine,
-        order: &Order,
-        desk: &Desk,
-        tasks: &[Task],
-    ) -> Result<Result<(), Superseded>, SetupError> {
+    pub fn preview(&mut self, job: Job<'_>, tasks: &[Task]) -> Result<(), End> {
+        let Job { order, desk, .. } = job;
         let (columns, lines) = order.raster();
         let pixels = (columns * lines) as f64;
         let wait: f64 = tasks.iter().map(|task| self.cost(task.source) * pixels).sum();
         if wait < PATIENCE.as_secs_f64() && !order.by_lines {
-            return Ok(Ok(()));
+            return Ok(());
         }
         for task in tasks {
             let share = PREVIEW / tasks.len() as f64;
             let in_time = |f: &usize| self.cost(task.source) * pixels / (f * f) as f64 <= share;
             let factor = match task.source {
                 // Below the falling scan the same coarse picture lies every time.
-                Source::Fast | Source::Processor | Source::Real if order.by_lines => 4,
-                _ if order.by_lines => 16,
+                Source::Frame(Engine::Oracle) | Source::Error(_) if order.by_lines => 16,
+                Source::Frame(_) if order.by_lines => 4,
                 _ => (0..16).map(|power| 1 << power).find(in_time).unwrap_or(1),
             };
-            let drawn = if matches!(task.source, Source::FixedError | Source::RealError) {
-                self.sampled(machine, desk, task, factor.max(2))?
-            } else {
-                self.coarse(machine, order, desk, task, factor)?
-            };
-            if drawn.is_err() {
-                return Ok(Err(Superseded));
+            match task.source {
+                Source::Frame(_) => self.coarse(job, task, factor)?,
+                Source::Error(engine) => self.sampled(job, task, engine, factor.max(2))?,
             }
         }
         self.show(order, desk, Some(0));
-        Ok(Ok(()))
+        Ok(())
     }
 
     /// A frame on a raster coarser by a whole number, enlarged.
-    fn coarse(
-        &mut self,
-        machine: &dyn Machine,
-        order: &Order,
-        desk: &Desk,
-        task: &Task,
-        factor: usize,
-    ) -> Result<Result<(), Superseded>, SetupError> {
+    fn coarse(&mut self, job: Job<'_>, task: &Task, factor: usize) -> Result<(), End> {
+        let Job { machine, order, desk } = job;
         let scene = coarser(&order.scene, factor, machine.plan().words());
         // What the coarse raster cannot do does not matter: the true frame follows.
-        let Ok(coarse) = self::machine(&Arc::new(scene), order.full, &self.memories) else {
-            return Ok(Ok(()));
-        };
-        let mut scan = coarse.scan(task.source, task.needs_buffers(order))?;
-        let Some(band) = scan.draw(u32::MAX, &|| desk.superseded()) else {
-            return Ok(Err(Superseded));
-        };
-        let mut values = Values::default();
-        values.push(band);
-        for &pane in &task.panes {
-            let painted = values.paint(order.panes[pane].picture);
-            self.images[pane].spread(painted, factor);
-        }
-        Ok(Ok(()))
+        let Ok(plan) = Plan::new(&scene, None, order.full) else { return Ok(()) };
+        let Ok(coarse) = Machine::new(&scene, &plan, &self.memories) else { return Ok(()) };
+        let band = task.scan(&coarse, order)?.draw(u32::MAX, &|| desk.superseded());
+        self.spread(job, task, &band.ok_or(End::Superseded)?, factor);
+        Ok(())
     }
 
     /// Errors of every pixel in the middle of a square.
     fn sampled(
         &mut self,
-        machine: &dyn Machine,
-        desk: &Desk,
+        job: Job<'_>,
         task: &Task,
+        engine: Engine,
         factor: usize,
-    ) -> Result<Result<(), Superseded>, SetupError> {
-        let geometry = &machine.plan().geometry;
+    ) -> Result<(), End> {
+        let geometry = &job.machine.plan().geometry;
         let middles = |count: u32| -> Vec<u32> {
             let middle = |from: u32| (from + factor as u32 / 2).min(count - 1);
             (0..count).step_by(factor).map(middle).collect()
         };
         let columns = middles(geometry.columns);
-        let (mut errors, mut silhouettes) = (Vec::new(), Vec::new());
-        for lines in middles(geometry.lines).chunks(4) {
-            if desk.superseded() {
-                return Ok(Err(Superseded));
-            }
-            let sample = Sample { lines: lines.to_vec(), columns: columns.clone() };
-            for pixel in machine.errors(&sample)? {
-                errors.push(error_px(&pixel, task.source == Source::RealError));
-                silhouettes.push(pixel.sheet == Sheet::Silhouette);
-            }
-        }
+        let sample = Sample { lines: middles(geometry.lines), columns };
+        let mut scan = job.machine.scan_errors(sample, engine == Engine::Real)?;
+        let band = scan.draw(u32::MAX, &|| job.desk.superseded()).ok_or(End::Superseded)?;
+        self.spread(job, task, &band, factor);
+        Ok(())
+    }
+
+    fn spread(&mut self, job: Job<'_>, task: &Task, drawn: &Band, factor: usize) {
         for &pane in &task.panes {
-            self.images[pane].spread(picture::error(&errors, &silhouettes), factor);
+            if let Some(painted) = job.order.panes[pane].picture.of(drawn) {
+                self.images[pane].spread(painted, factor);
+            }
         }
-        Ok(Ok(()))
     }
 
     /// Errors take so long that they come in several passes, each twice as fine.
-    pub(super) fn refine(
-        &mut self,
-        machine: &dyn Machine,
-        order: &Order,
-        desk: &Desk,
-        task: &Task,
-    ) -> Result<Result<(), Superseded>, SetupError> {
-        if !matches!(task.source, Source::FixedError | Source::RealError) {
-            return Ok(Ok(()));
-        }
+    pub fn refine(&mut self, job: Job<'_>, task: &Task) -> Result<(), End> {
+        let Source::Error(engine) = task.source else { return Ok(()) };
         for factor in [16, 8, 4, 2] {
-            if self.sampled(machine, desk, task, factor)?.is_err() {
-                return Ok(Err(Superseded));
-            }
-            self.show(order, desk, Some(0));
-            if self.attend(machine, order, desk, Some(0))?.is_err() {
-                return Ok(Err(Superseded));
-            }
+            self.sampled(job, task, engine, factor)?;
+            self.show(job.order, job.desk, Some(0));
+            self.attend(job, Some(0))?;
         }
-        Ok(Ok(()))
+        Ok(())
     }
 }
 

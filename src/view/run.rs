@@ -1,14 +1,14 @@
-//! The loop between a window, the session and the drawing: live, or after a script.
+//! The loop between a window, the session and the render worker: live, or after a script.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use super::action::Effect;
 use super::canvas::Canvas;
-use super::drawing::Drawing;
 use super::input::{Hands, Input};
 use super::layout::Layout;
 use super::session::Session;
+use super::worker::RenderWorker;
 use crate::sink::{SinkError, png};
 
 /// A window, or what stands for one.
@@ -32,9 +32,9 @@ pub enum RunError {
     /// The window does not take a picture.
     #[error("the window does not take its picture: {0}")]
     Window(String),
-    /// The drawing thread has ended.
+    /// The render worker has ended.
     #[error("the drawing has stopped, which is a defect of the program; the reason stands above")]
-    Drawing,
+    Worker,
     /// The window was closed before the script's end.
     #[error("the window was closed after {0} of {1} frames: no screenshot is written")]
     Closed(u32, u32),
@@ -59,7 +59,7 @@ const LONGEST_TICK: f64 = 0.1;
 pub struct View<'a> {
     glass: &'a mut dyn Glass,
     session: Session,
-    drawing: Drawing,
+    worker: RenderWorker,
     scale: usize,
     hands: Hands,
     canvas: Canvas,
@@ -71,19 +71,19 @@ pub struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// A session and its drawing in a window, `scale` window pixels per raster pixel. `print`
+    /// A session and its render worker in a window, `scale` window pixels per raster pixel. `print`
     /// takes what is for the terminal.
     pub fn new(
         glass: &'a mut dyn Glass,
         session: Session,
-        drawing: Drawing,
+        worker: RenderWorker,
         print: &'a mut dyn FnMut(&str),
     ) -> Self {
         let scale = session.layout().scale;
         Self {
             glass,
             session,
-            drawing,
+            worker,
             scale,
             hands: Hands::default(),
             canvas: Canvas::default(),
@@ -109,10 +109,10 @@ impl<'a> View<'a> {
             if quit {
                 break;
             }
-            if self.drawing.is_dead() {
-                return Err(RunError::Drawing);
+            if self.worker.is_dead() {
+                return Err(RunError::Worker);
             }
-            let now = self.drawing.shown().version;
+            let now = self.worker.snapshot().version;
             changed |= acted || version != Some(now);
             let wait = if changed { REFRESH } else { AGAIN };
             if presented.is_none_or(|then| then.elapsed() >= wait) {
@@ -143,9 +143,9 @@ impl<'a> View<'a> {
             if quit {
                 return Err(RunError::Closed(frame, frames));
             }
-            self.drawing.finish();
-            if self.drawing.is_dead() {
-                return Err(RunError::Drawing);
+            self.worker.finish();
+            if self.worker.is_dead() {
+                return Err(RunError::Worker);
             }
             self.say();
             self.present(false)?;
@@ -169,8 +169,8 @@ impl<'a> View<'a> {
             self.send_order();
             match effect {
                 Some(Effect::Quit) => return (true, true),
-                Some(Effect::Line) => self.drawing.grant(1, u32::MAX),
-                Some(Effect::Explain(column, line)) => self.drawing.explain((column, line)),
+                Some(Effect::Line) => self.worker.grant(1, u32::MAX),
+                Some(Effect::Explain(column, line)) => self.worker.explain((column, line)),
                 Some(Effect::Print(text)) => (self.print)(&text),
                 Some(Effect::Screenshot) => self.screenshot(),
                 None => {}
@@ -178,15 +178,15 @@ impl<'a> View<'a> {
         }
         acted |= self.send_order();
         let lines = self.session.advance(seconds);
-        // A drawing that is slower than the pace does not run after it for ever.
+        // A worker that is slower than the pace does not run after it for ever.
         let speed = self.session.pace().lines_per_second().unwrap_or_default();
-        self.drawing.grant(lines, lines.max(speed / 4));
+        self.worker.grant(lines, lines.max(speed / 4));
         let pointed = self.session.pointed();
         // Looking at a pixel takes an oracle of its own: not while the view changes.
         let rests = self.ordered.is_none_or(|then| then.elapsed() >= REST);
         if pointed != self.looked_at && rests {
             self.looked_at = pointed;
-            self.drawing.look(pointed);
+            self.worker.look(pointed);
         }
         acted |= self.say();
         (acted, false)
@@ -195,22 +195,22 @@ impl<'a> View<'a> {
     /// Orders what the session wants drawn, if that is something new.
     fn send_order(&mut self) -> bool {
         let Some(order) = self.session.order() else { return false };
-        self.drawing.order(order);
+        self.worker.order(order);
         // The new picture has another pixel under the cursor.
         self.looked_at = None;
         self.ordered = self.live.then(Instant::now);
         true
     }
 
-    /// Prints what the drawing has to say.
+    /// Prints what the render worker has to say.
     fn say(&mut self) -> bool {
-        let said = self.drawing.said();
+        let said = self.worker.said();
         said.iter().for_each(|text| (self.print)(text));
         !said.is_empty()
     }
 
     fn present(&mut self, timed: bool) -> Result<(), RunError> {
-        self.canvas.compose(&self.session, &self.drawing.shown(), timed);
+        self.canvas.compose(&self.session, &self.worker.snapshot(), timed);
         self.glass.present(&self.canvas).map_err(RunError::Window)
     }
 

@@ -8,9 +8,9 @@ use crate::sink::picture::Picture;
 
 use super::action::{Action, Effect, Side};
 use super::camera;
-use super::drawing::Order;
 use super::ground;
 use super::layout::Layout;
+use super::order::Order;
 use super::pace::Pace;
 use super::pane::Pane;
 

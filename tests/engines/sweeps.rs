@@ -5,19 +5,22 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use proptest::collection::vec;
 use proptest::prelude::*;
-use terraline::engine::{FixedWorld, InFixedWorld, Overflows, draw_by_lines};
-use terraline::fast::enter::Enterable;
+use terraline::engine::{Engine, FixedWorld, Machine, Memories};
 use terraline::plan::formats::Formats;
 use terraline::plan::{Plan, WordClass};
 use terraline::scene::{FormatRequest, Scene, WordSize};
-use terraline::setup::{Memory, Setup, SetupError};
-use terraline::word::{Class, Complete, Fixed, Overflow, Register, Registers, Rounding};
+use terraline::word::sweep::Sweep;
+use terraline::word::{Class, Fixed, Overflow, Register, Registers, Rounding};
 
 use super::support::formats::requests;
 use super::support::recipe::recipes;
-use super::support::{
-    assert_same, both, builtin, difference, drawn, fast, is_under_ground, processor, runner,
-};
+use super::support::{assert_same, both, builtin, difference, drawn, is_under_ground, runner};
+
+/// The machine of a scene in a sweep, where what fits the stock words fits.
+fn in_sweep<'a>(sweep: Sweep, scene: &'a Scene, plan: &'a Plan) -> Machine<'a> {
+    let world = FixedWorld::Sweep(sweep);
+    Machine::in_world(world, scene, plan, &Memories::default()).expect("what fits stock fits here")
+}
 
 #[test]
 fn stock_words_are_a_sweep_at_the_stock_formats() {
@@ -29,9 +32,10 @@ fn stock_words_are_a_sweep_at_the_stock_formats() {
             let sweep = Formats::stock(plan.words()).sweep(scene.seed).expect("stock formats");
             assert!(sweep.wraps());
             let stock = drawn(&scene, &plan).expect("a frame");
-            let swept = processor(sweep, &scene, &plan).expect("a frame");
-            assert_same(name, &stock, &swept);
-            assert_same(name, &stock, &fast(sweep, &scene, &plan).expect("a frame"));
+            let swept = in_sweep(sweep, &scene, &plan);
+            for engine in [Engine::Processor, Engine::Fast] {
+                assert_same(name, &stock, &swept.frame(engine, true).expect("a frame"));
+            }
         }
     }
 }
@@ -46,7 +50,8 @@ fn random_scenes_are_the_same_in_a_sweep_at_the_stock_formats() {
             let Ok(plan) = Plan::new(&scene, None, false) else { continue };
             let Ok(stock) = drawn(&scene, &plan) else { continue };
             let sweep = Formats::stock(plan.words()).sweep(scene.seed).expect("stock formats");
-            let swept = processor(sweep, &scene, &plan).expect("what fits stock fits here");
+            let swept = in_sweep(sweep, &scene, &plan).frame(Engine::Processor, true);
+            let swept = swept.expect("what fits stock fits here");
             compared.fetch_add(1, Relaxed);
             if let Some(difference) = difference(&stock, &swept) {
                 let words = plan.words().name;

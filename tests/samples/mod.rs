@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use tempfile::TempDir;
-use terraline::frame::{Buffers, Frame, Hit};
+use terraline::frame::{Frame, Giver, Hit, Pixel};
 use terraline::sink::png::{self, Image};
 
 pub fn folder() -> TempDir {
@@ -15,21 +15,22 @@ pub fn frame(columns: usize, lines: usize) -> Frame {
     let n = columns * lines;
     let outcome = |i: usize| [Hit::Surface, Hit::Sky, Hit::Side, Hit::Far][i % 4];
     let value = |i: usize, scale: f64| if i % 4 == 1 { f64::NAN } else { i as f64 / 7.0 * scale };
-    Frame {
-        columns,
-        lines,
-        color: (0..n).map(|i| [i as u8, (i / 3) as u8, (i * 7) as u8]).collect(),
-        hit: (0..n).map(outcome).collect(),
-        buffers: Some(Buffers {
-            lambda: (0..n).map(|i| value(i, 1e-9)).collect(),
-            ground_x: (0..n).map(|i| value(i, 1.0)).collect(),
-            ground_z: (0..n).map(|i| value(i, -1.0)).collect(),
-            height: (0..n).map(|i| value(i, 1e12)).collect(),
-            normal: (0..n).map(|i| [value(i, 0.1), value(i, -0.1), value(i, 0.5)]).collect(),
-            steps: (0..n).map(|i| i as u32 * 65_537).collect(),
-            trials: Some((0..n).map(|i| i as u32).collect()),
-        }),
+    let mut frame = Frame::with_room(columns, lines, true);
+    for i in 0..n {
+        frame.color.push([i as u8, (i / 3) as u8, (i * 7) as u8]);
+        frame.hit.push(outcome(i));
+        let pixel = Pixel {
+            lambda: value(i, 1e-9),
+            ground_x: value(i, 1.0),
+            ground_z: value(i, -1.0),
+            height: value(i, 1e12),
+            normal: [value(i, 0.1), value(i, -0.1), value(i, 0.5)],
+            steps: i as u32 * 65_537,
+            ..Pixel::MISS
+        };
+        frame.buffers.as_mut().expect("asked for").push(pixel, Giver::Processor);
     }
+    frame
 }
 
 pub fn image(columns: usize, lines: usize) -> Image {

@@ -4,13 +4,14 @@
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
+use terraline::engine::Memories;
 use terraline::plan::Plan;
 use terraline::scene::{
-    Angles, Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, HeightMap, Kernel,
-    KernelShape, Light, Machine, NoData, Outside, Plane, RatioForm, Scene, Screen, Stepper,
+    Angles, Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, Hardware, HeightMap,
+    Kernel, KernelShape, Light, NoData, Outside, Plane, RatioForm, Scene, Screen, Stepper,
     StepperMode, Surface, Terrain, WordSize,
 };
-use terraline::setup::{Back, Memory, Setup, TerrainUnits};
+use terraline::setup::{Back, Setup, TerrainUnits};
 use terraline::unit::interpolator::Interpolator;
 use terraline::word::Complete;
 
@@ -92,7 +93,7 @@ pub fn scene(surface: Surface, eye: DVec3, words: WordSize) -> Scene {
             side: [7, 8, 9],
             checker: [[200, 200, 190], [70, 90, 70]],
         },
-        machine: Machine { clock_mhz: 100.0, memory_latency: 2, words, ratio: RatioForm::Array },
+        machine: Hardware { clock_mhz: 100.0, memory_latency: 2, words, ratio: RatioForm::Array },
         formats: vec![],
     }
 }
@@ -111,8 +112,7 @@ pub fn terrain_scene(terrain: Terrain, kernel: Kernel, words: WordSize) -> Scene
 /// The machine of a scene, everything fitted or pruned.
 pub fn machine<W: Complete>(world: W, scene: &Scene, full: bool) -> (Plan, Setup<W>) {
     let plan = Plan::new(scene, None, full).expect("a scene that can be planned");
-    let memory = Memory::new(&world, scene, &plan).expect("heights that fit");
-    let setup = Setup::new(world, scene, &plan, memory.as_ref()).expect("registers that fit");
+    let setup = Memories::default().set_up(world, scene, &plan).expect("registers that fit");
     (plan, setup)
 }
 

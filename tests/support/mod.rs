@@ -4,24 +4,22 @@
 pub mod formats;
 pub mod recipe;
 
-use std::fmt::Debug;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
-use terraline::engine::{FixedWorld, InFixedWorld, draw_by_lines, draw_real};
+use terraline::engine::{Engine, FixedWorld, InFixedWorld, Machine, Memories};
 use terraline::fast::{self, enter::Enterable};
-use terraline::frame::{Frame, Hit};
+use terraline::frame::{Entry, Frame, Giver, Hit};
 use terraline::oracle::Oracle;
 use terraline::plan::{Plan, PlanError};
 use terraline::scene::{
-    Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, HeightMap, Kernel,
-    KernelShape, Light, Machine, NoData, Outside, RatioForm, Scene, Screen, Stepper, StepperMode,
-    Surface, Terrain, WordSize, load,
+    Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, Hardware, HeightMap, Kernel,
+    KernelShape, Light, NoData, Outside, RatioForm, Scene, Screen, Stepper, StepperMode, Surface,
+    Terrain, WordSize, load,
 };
-use terraline::setup::{Memory, Setup, SetupError};
+use terraline::setup::SetupError;
 use terraline::word::Complete;
-use terraline::word::real::Real;
 
 /// Names of the built-in scenes with a height map.
 pub const TERRAINS: [&str; 3] = ["overview", "flight", "valley"];
@@ -93,7 +91,7 @@ pub fn over(map: HeightMap, columns: u32, lines: u32) -> Scene {
             side: [96, 82, 64],
             checker: [[200, 200, 190], [70, 90, 70]],
         },
-        machine: Machine {
+        machine: Hardware {
             clock_mhz: 100.0,
             memory_latency: 2,
             words: WordSize::Auto,
@@ -137,34 +135,15 @@ pub fn runner(cases: u32) -> TestRunner {
     })
 }
 
-/// Draws with the line-by-line processor.
-pub fn processor<W: Complete>(world: W, scene: &Scene, plan: &Plan) -> Result<Frame, SetupError> {
-    let memory = Memory::new(&world, scene, plan)?;
-    let setup = Setup::new(world, scene, plan, memory.as_ref())?;
-    Ok(draw_by_lines(&setup, plan, true, |_| {}))
-}
-
-/// Draws with the fast engine.
-pub fn fast<W: Complete + Enterable>(
-    world: W,
-    scene: &Scene,
-    plan: &Plan,
-) -> Result<Frame, SetupError> {
-    let memory = Memory::new(&world, scene, plan)?;
-    let setup = Setup::new(world, scene, plan, memory.as_ref())?;
-    Ok(fast::render(&setup, plan, true))
+/// The machine of a scene, in its fixed-point world.
+pub fn machine<'a>(scene: &'a Scene, plan: &'a Plan) -> Result<Machine<'a>, SetupError> {
+    Machine::new(scene, plan, &Memories::default())
 }
 
 /// Draws with both engines in a scene's fixed-point world: processor, fast.
 pub fn both(scene: &Scene, plan: &Plan) -> Result<(Frame, Frame), SetupError> {
-    struct Both<'a>(&'a Scene, &'a Plan);
-    impl InFixedWorld for Both<'_> {
-        type Output = Result<(Frame, Frame), SetupError>;
-        fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-            Ok((processor(world, self.0, self.1)?, fast(world, self.0, self.1)?))
-        }
-    }
-    FixedWorld::of(scene, plan)?.run(Both(scene, plan))
+    let machine = machine(scene, plan)?;
+    Ok((machine.frame(Engine::Processor, true)?, machine.frame(Engine::Fast, true)?))
 }
 
 /// Draws with the fast engine at every SIMD level that there is.
@@ -174,10 +153,9 @@ pub fn at_every_level(scene: &Scene, plan: &Plan) -> Result<Vec<Frame>, SetupErr
         type Output = Result<Vec<Frame>, SetupError>;
         fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
             let Self(scene, plan) = self;
-            let memory = Memory::new(&world, scene, plan)?;
-            let setup = Setup::new(world, scene, plan, memory.as_ref())?;
-            let draw = |level| terraline::fast::render_at(level, &setup, plan, true);
-            Ok(terraline::fast::levels().into_iter().map(draw).collect())
+            let setup = Memories::default().set_up(world, scene, plan)?;
+            let draw = |level| fast::render_at(level, &setup, plan, true);
+            Ok(fast::levels().into_iter().map(draw).collect())
         }
     }
     FixedWorld::of(scene, plan)?.run(Levels(scene, plan))
@@ -185,14 +163,7 @@ pub fn at_every_level(scene: &Scene, plan: &Plan) -> Result<Vec<Frame>, SetupErr
 
 /// Draws with the processor in a scene's fixed-point world.
 pub fn drawn(scene: &Scene, plan: &Plan) -> Result<Frame, SetupError> {
-    struct One<'a>(&'a Scene, &'a Plan);
-    impl InFixedWorld for One<'_> {
-        type Output = Result<Frame, SetupError>;
-        fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-            processor(world, self.0, self.1)
-        }
-    }
-    FixedWorld::of(scene, plan)?.run(One(scene, plan))
+    machine(scene, plan)?.frame(Engine::Processor, true)
 }
 
 /// Whether a set-up error says that the eye is under the ground.
@@ -205,44 +176,38 @@ pub fn count(frame: &Frame, hit: Hit) -> usize {
     frame.hit.iter().filter(|h| **h == hit).count()
 }
 
-/// The first pixel at which two frames differ in any buffer but `trials`, floats compared bit by
-/// bit; `None` where they are equal.
+/// The first pixel at which two frames differ in any array that all engines give, bit by bit;
+/// `None` where they are equal.
 pub fn difference(a: &Frame, b: &Frame) -> Option<String> {
     if (a.columns, a.lines) != (b.columns, b.lines) {
         return Some(format!("{}x{} against {}x{}", a.columns, a.lines, b.columns, b.lines));
     }
-    let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-    let (p, q) = (a.buffers.as_ref()?, b.buffers.as_ref()?);
-    let vectors = |normal: &[[f64; 3]]| normal.iter().map(|n| n.map(f64::to_bits)).collect();
-    let (n, m): (Vec<[u64; 3]>, Vec<[u64; 3]>) = (vectors(&p.normal), vectors(&q.normal));
-    let float = |name, p: &[f64], q: &[f64]| {
-        let at = first(name, &bits(p), &bits(q), a.columns)?;
-        Some(format!("{at} (as bits of f64)"))
-    };
-    first("hit", &a.hit, &b.hit, a.columns)
-        .or_else(|| first("steps", &p.steps, &q.steps, a.columns))
-        .or_else(|| float("ground_x", &p.ground_x, &q.ground_x))
-        .or_else(|| float("ground_z", &p.ground_z, &q.ground_z))
-        .or_else(|| float("height", &p.height, &q.height))
-        .or_else(|| float("lambda", &p.lambda, &q.lambda))
-        .or_else(|| first("normal", &n, &m, a.columns))
-        .or_else(|| first("color", &a.color, &b.color, a.columns))
-}
-
-fn first<T: PartialEq + Debug>(name: &str, a: &[T], b: &[T], columns: usize) -> Option<String> {
-    if a.len() != b.len() {
-        return Some(format!("{name}: {} values against {}", a.len(), b.len()));
+    let of_all = |(entry, _): &(&Entry, _)| entry.giver == Giver::Engines;
+    let (mut ours, mut theirs) = (a.arrays().filter(of_all), b.arrays().filter(of_all));
+    loop {
+        match (ours.next(), theirs.next()) {
+            (None, None) => return None,
+            (Some((entry, p)), Some((other, q))) if entry.name == other.name => {
+                let pixel = entry.components;
+                if p.pieces(1 << 14).eq(q.pieces(1 << 14)) {
+                    continue;
+                }
+                let pairs = p.pieces(pixel).zip(q.pieces(pixel)).enumerate();
+                let differ: Vec<_> = pairs.filter(|(_, (p, q))| p != q).collect();
+                let (at, (p, q)) = differ.first()?;
+                return Some(format!(
+                    "{} at column {}, line {}: bytes {p:02x?} against {q:02x?}; {} of {} pixels \
+                     differ",
+                    entry.name,
+                    at % a.columns,
+                    at / a.columns,
+                    differ.len(),
+                    a.hit.len()
+                ));
+            }
+            _ => return Some("one has arrays that the other lacks".into()),
+        }
     }
-    let at = a.iter().zip(b).position(|(a, b)| a != b)?;
-    let differ = a.iter().zip(b).filter(|(a, b)| a != b).count();
-    Some(format!(
-        "{name} at column {}, line {}: {:?} against {:?}; {differ} of {} pixels differ",
-        at % columns,
-        at / columns,
-        a[at],
-        b[at],
-        a.len()
-    ))
 }
 
 /// Fails where two frames differ.
@@ -261,6 +226,5 @@ pub fn ground_under(scene: &Scene, x: f64, z: f64) -> Option<f64> {
 
 /// A frame of the real world, with buffers.
 pub fn draw_in_real(scene: &Scene, plan: &Plan) -> Result<Frame, SetupError> {
-    let memory = Memory::new(&Real, scene, plan)?;
-    draw_real(scene, plan, memory.as_ref(), true)
+    machine(scene, plan)?.frame(Engine::Real, true)
 }

@@ -3,12 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use terraline::engine::InFixedWorld;
-use terraline::fast::enter::Enterable;
+use terraline::engine::WithSetup;
 use terraline::frame::Hit;
 use terraline::plan::Plan;
 use terraline::scene::Scene;
-use terraline::setup::{Back, Memory, Setup, TerrainUnits};
+use terraline::setup::{Back, Setup, TerrainUnits};
 use terraline::sink::vectors::selection::Selection;
 use terraline::unit::{Line, checker::Checker};
 use terraline::unit::line::Entry;
@@ -27,16 +26,13 @@ pub struct Grade<'a> {
     pub stock: bool,
 }
 
-impl InFixedWorld for Grade<'_> {
+impl WithSetup for Grade<'_> {
     type Output = Result<(), String>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+    fn run<W: Complete>(self, setup: &Setup<W>) -> Self::Output {
         let (scene, plan) = (self.scene, self.plan);
-        let memory = Memory::new(&world, scene, plan).map_err(|error| error.to_string())?;
-        let setup =
-            Setup::new(world, scene, plan, memory.as_ref()).map_err(|error| error.to_string())?;
         let files = self.files;
-        let names = self.names(&setup);
+        let names = self.names(setup);
         if !files.keys().eq(names.iter()) {
             return Err(format!("files {:?}, fitted {names:?}", files.keys()));
         }
@@ -55,7 +51,7 @@ impl InFixedWorld for Grade<'_> {
         if self.stock {
             exact::interpolator(files)?;
         }
-        self.units(&setup)?;
+        self.units(setup)?;
         if let Back::Terrain(units) = &setup.back {
             memories::check(files, units)?;
         }

@@ -1,11 +1,12 @@
 //! The scan that falls line by line.
 
 use terraline::engine::Engine;
-use terraline::view::drawing::{Drawing, Order};
 use terraline::view::layout::Layout;
+use terraline::view::order::Order;
 use terraline::view::pane::Pane;
 use terraline::view::session::Session;
-use terraline::view::shown::LineState;
+use terraline::view::snapshot::LineState;
+use terraline::view::worker::RenderWorker;
 
 use super::{frame, run, scene};
 
@@ -15,24 +16,24 @@ fn lines_fall_as_they_are_granted() {
     let layout = Layout::new(80, 60, 1);
     let mut session = Session::new(scene.clone(), false, Some(String::new()), Engine::Fast, layout);
     let order = Order { by_lines: true, ..session.order().unwrap() };
-    let drawing = Drawing::start(order).unwrap();
+    let worker = RenderWorker::start(order).unwrap();
     let whole = frame(&scene, (80, 60), Engine::Fast).color;
     let mut granted = 0;
     for more in [1, 1, 5, 20, 30, 3] {
-        drawing.grant(more, u32::MAX);
-        drawing.finish();
+        worker.grant(more, u32::MAX);
+        worker.finish();
         granted += more as usize;
-        let shown = drawing.shown();
-        let image = &shown.images[0];
-        assert_eq!((image.drawn(), shown.scan), (granted, Some(granted as u32)));
+        let snapshot = worker.snapshot();
+        let image = &snapshot.images[0];
+        assert_eq!((image.drawn(), snapshot.scan), (granted, Some(granted as u32)));
         assert_eq!(image.pixels[..granted * 80], whole[..granted * 80]);
         assert!(image.states[granted..].iter().all(|&state| state != LineState::Drawn));
     }
     // The next line is the first of the next frame.
-    drawing.grant(1, u32::MAX);
-    drawing.finish();
-    assert_eq!((drawing.shown().images[0].drawn(), drawing.shown().scan), (1, Some(1)));
-    assert_eq!(drawing.shown().images[0].pixels, whole);
+    worker.grant(1, u32::MAX);
+    worker.finish();
+    assert_eq!((worker.snapshot().images[0].drawn(), worker.snapshot().scan), (1, Some(1)));
+    assert_eq!(worker.snapshot().images[0].pixels, whole);
 }
 
 #[test]
@@ -44,11 +45,11 @@ fn two_engines_fall_side_by_side() {
     let panes: Vec<Pane> = [Engine::Processor, Engine::Oracle]
         .map(|engine| Pane { engine, ..first.panes[0] })
         .to_vec();
-    let drawing = Drawing::start(Order { by_lines: true, panes, ..first }).unwrap();
-    drawing.grant(37, u32::MAX);
-    drawing.finish();
-    let shown = drawing.shown();
-    for (image, engine) in shown.images.iter().zip([Engine::Fast, Engine::Oracle]) {
+    let worker = RenderWorker::start(Order { by_lines: true, panes, ..first }).unwrap();
+    worker.grant(37, u32::MAX);
+    worker.finish();
+    let snapshot = worker.snapshot();
+    for (image, engine) in snapshot.images.iter().zip([Engine::Fast, Engine::Oracle]) {
         assert_eq!(image.drawn(), 37);
         assert_eq!(image.pixels[..37 * 80], frame(&scene, (80, 60), engine).color[..37 * 80]);
     }

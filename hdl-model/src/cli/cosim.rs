@@ -8,11 +8,10 @@ use serde::Serialize;
 use terraline::cli::scene_args::SceneArgs;
 use terraline::cli::{Stop, report};
 use terraline::clock::Sink;
-use terraline::engine::InFixedWorld;
-use terraline::fast::enter::Enterable;
+use terraline::engine::WithSetup;
 use terraline::plan::{Ground, Plan};
 use terraline::scene::Scene;
-use terraline::setup::{Memory, Setup};
+use terraline::setup::Setup;
 use terraline::word::Complete;
 
 use crate::cosim::{self, Outcome, Window};
@@ -78,22 +77,17 @@ struct Report {
 
 struct Compare<'a> {
     scene: &'a Scene,
-    plan: &'a Plan,
     sink: Sink,
     trace: Option<(&'a str, Window)>,
 }
 
-impl InFixedWorld for Compare<'_> {
+impl WithSetup for Compare<'_> {
     type Output = Result<(Outcome, Option<String>), String>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-        let memory =
-            Memory::new(&world, self.scene, self.plan).map_err(|error| error.to_string())?;
-        let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())
-            .map_err(|error| error.to_string())?;
-        let machine = Machine::new(&setup)?;
-        let waves = self.trace.map(|(path, _)| waves::gtkw(Path::new(path), &setup, &machine));
-        let outcome = cosim::compare_with(machine, &setup, self.sink, self.trace)?;
+    fn run<W: Complete>(self, setup: &Setup<W>) -> Self::Output {
+        let rtl = Machine::new(setup)?;
+        let waves = self.trace.map(|(path, _)| waves::gtkw(Path::new(path), setup, &rtl));
+        let outcome = cosim::compare_with(rtl, setup, self.sink, self.trace)?;
         Ok((outcome, waves))
     }
 }
@@ -112,17 +106,16 @@ impl Cosim {
         let path = self.trace.as_deref().map(trace_path).transpose()?;
         let compare = Compare {
             scene,
-            plan,
             sink: match self.busy {
                 0 => Sink::Ready,
                 of_256 => Sink::Busy { seed: scene.seed, of_256 },
             },
             trace: path.map(|path| (path, window)),
         };
+        let machine = planned.machine()?;
         let start = Instant::now();
         let (outcome, waves) =
-            report::while_waiting("the RTL draws", || planned.world.run(compare))
-                .map_err(refuse)?;
+            report::while_waiting("the RTL draws", || machine.run(compare)).map_err(refuse)?;
         let seconds = start.elapsed().as_secs_f64();
         let waves = self.trace.as_deref().zip(waves);
         let waves = waves.map(|(trace, text)| write_waves(trace, &text)).transpose()?;

@@ -1,9 +1,8 @@
 //! Cycles of the built-in scenes, by the recurrence that the co-simulation found equal to the RTL.
 
-use terraline::engine::FixedWorld;
+use terraline::engine::{Machine, Memories};
 use terraline::plan::Plan;
 use terraline::scene;
-use terraline::study::cost::Measure;
 use terraline::study::error::Sample;
 
 use super::FrameRow;
@@ -30,12 +29,12 @@ fn frame(name: &str, columns: u32, lines: u32) -> Result<FrameRow, String> {
     let refused = |error: &dyn std::fmt::Display| format!("{name}: {error}");
     let scene = scene::load(Some(name), &sets).map_err(|error| refused(&error))?;
     let plan = Plan::new(&scene, None, false).map_err(|error| refused(&error))?;
-    let world = FixedWorld::of(&scene, &plan).map_err(|error| refused(&error))?;
+    let machine =
+        Machine::new(&scene, &plan, &Memories::default()).map_err(|error| refused(&error))?;
     let all = Sample::all(&plan);
     // Operations are not asked for: one line is enough.
     let one = Sample::whole_lines(&plan, 1, scene.seed);
-    let measure = Measure { scene: &scene, plan: &plan, cycles: &all, operations: &one };
-    let cost = world.run(measure).map_err(|error| refused(&error))?;
+    let cost = machine.cost(&all, &one).map_err(|error| refused(&error))?;
     Ok(FrameRow {
         scene: name.into(),
         words: plan.words().name.into(),

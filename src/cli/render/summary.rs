@@ -8,9 +8,8 @@ use super::{Drawn, Render, Stop, Units};
 use crate::engine::Engine;
 use crate::frame::Hit;
 use crate::plan::units::UnitPlan;
-use crate::study::cost::{Cost, Measure};
-use crate::study::error::{self, ErrorReport, Sample, Spread};
-use crate::study::explain::hit_name;
+use crate::study::cost::Cost;
+use crate::study::error::{ErrorReport, Sample, Spread};
 
 /// Lines whose cycles and operations the summary counts.
 const COST_LINES: u32 = 32;
@@ -75,9 +74,10 @@ pub(super) struct Summary {
 
 impl Render {
     /// Measures a drawn frame.
-    pub(super) fn summarise(&self, planned: &Planned, drawn: &Drawn) -> Result<Summary, Stop> {
+    pub(super) fn summarise(&self, planned: &Planned, drawn: &Drawn<'_>) -> Result<Summary, Stop> {
+        let machine = &drawn.machine;
         let Planned { scene, plan, world, invocation, overlook, .. } = planned;
-        let count = |hit| drawn.frame.hit.iter().filter(|h| **h == hit).count();
+        let count = |hit| drawn.band.frame.hit.iter().filter(|h| **h == hit).count();
         let mut times: Vec<f64> = drawn.times.iter().map(|t| t.as_secs_f64() * 1e3).collect();
         times.sort_by(f64::total_cmp);
         let lines = Sample::whole_lines(plan, COST_LINES, scene.seed);
@@ -85,12 +85,11 @@ impl Render {
         // The processor's own frame gives the cycles of all its lines.
         let cycles = if self.engine == Engine::Processor { &all } else { &lines };
         let refused = |error| planned.refused(&error);
-        let cost =
-            world.run(Measure { scene, plan, cycles, operations: &lines }).map_err(refused)?;
+        let cost = machine.cost(cycles, &lines).map_err(refused)?;
         let fixed = matches!(self.engine, Engine::Fast | Engine::Processor);
         let errors = if fixed && self.sample > 0 {
             let sample = Sample::strips(plan, self.sample, scene.seed);
-            let pixels = error::pixels(scene, plan, world, &sample).map_err(refused)?;
+            let pixels = machine.errors(&sample).map_err(refused)?;
             Some(ErrorReport::new(&sample, &pixels, scene.unit_m))
         } else {
             None
@@ -113,8 +112,8 @@ impl Render {
             },
             world_why: plan.words_why.clone(),
             not_proved: plan.not_proved.clone(),
-            columns: drawn.frame.columns,
-            lines: drawn.frame.lines,
+            columns: drawn.band.frame.columns,
+            lines: drawn.band.frame.lines,
             units: world.run(Units { planned }),
             frame_ms: Times {
                 min: times[0],
@@ -139,6 +138,7 @@ impl Render {
             modelled_fps: cost.modelled_fps,
             cost,
             overflows: drawn
+                .band
                 .overflows
                 .registers
                 .iter()
@@ -216,7 +216,7 @@ impl Render {
             ]
             .iter()
             .filter(|(_, count)| *count > 0)
-            .map(|(hit, count)| format!("{} {:.2} %", hit_name(*hit), share(*count)))
+            .map(|(hit, count)| format!("{} {:.2} %", hit.name(), share(*count)))
             .collect::<Vec<_>>()
             .join(", ")
         ));

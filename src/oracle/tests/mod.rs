@@ -13,8 +13,9 @@ use glam::{DVec2, DVec3};
 
 use super::Oracle;
 use crate::scene::{
-    Attitude, Camera, Colors, Deformation, Extent, Halvings, HeightMap, Kernel, KernelShape, Light,
-    Machine, Outside, RatioForm, Scene, Screen, Stepper, StepperMode, Surface, Terrain, WordSize,
+    Attitude, Camera, Colors, Deformation, Extent, Halvings, Hardware, HeightMap, Kernel,
+    KernelShape, Light, Outside, RatioForm, Scene, Screen, Stepper, StepperMode, Surface, Terrain,
+    WordSize,
 };
 
 /// Every shape.
@@ -116,7 +117,7 @@ pub(super) fn scene(surface: Surface, kernel: Kernel, eye: DVec3, forward: DVec3
             side: [90, 70, 50],
             checker: [[240, 240, 240], [40, 40, 40]],
         },
-        machine: Machine {
+        machine: Hardware {
             clock_mhz: 100.0,
             memory_latency: 2,
             words: WordSize::Auto,

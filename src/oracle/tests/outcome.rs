@@ -182,5 +182,5 @@ fn frames_hold_their_pixels() {
         assert_eq!(buffers.height[index].to_bits(), pixel.point.y.to_bits());
     }
     assert!(frame.hit.contains(&Hit::Surface) && frame.hit.contains(&Hit::Side));
-    assert!(buffers.steps.iter().all(|&steps| steps == 0) && buffers.trials.is_none());
+    assert!(buffers.steps.iter().all(|&steps| steps == 0) && buffers.trials.is_empty());
 }

@@ -21,7 +21,7 @@ pub struct Timing<'a> {
 impl<'a> Timing<'a> {
     /// Begins the file; the clock starts with its first row.
     pub fn begin(files: &Files<'a>, chain: Chain) -> Result<Self, SinkError> {
-        let memory_latency = files.vectors.scene.machine.memory_latency;
+        let memory_latency = files.vectors.machine.scene().machine.memory_latency;
         let mut lines = vec![
             "page docs/cycles.md".into(),
             "equation 28".into(),

@@ -1,13 +1,10 @@
 //! What one number world says of one pixel, register by register.
 
 use super::quantity::{Axis, Quantity};
-use crate::engine::InFixedWorld;
-use crate::fast::enter::Enterable;
+use crate::engine::WithSetup;
 use crate::frame::Hit;
-use crate::plan::Plan;
 use crate::processor::Processor;
-use crate::scene::Scene;
-use crate::setup::{Back, Memory, Setup, SetupError, TerrainUnits};
+use crate::setup::{Back, Setup, TerrainUnits};
 use crate::unit::interpolator::{AT_THE_HIT, Form, Interpolator};
 use crate::unit::line::{Entry, Work};
 use crate::unit::stepper::Place;
@@ -76,28 +73,21 @@ impl Readings<'_> {
 }
 
 /// One pixel to be walked in some world.
-pub(super) struct Walk<'a> {
-    pub scene: &'a Scene,
-    pub plan: &'a Plan,
+#[derive(Clone, Copy)]
+pub(super) struct Walk {
     pub column: u32,
     pub line: u32,
     /// Take the ray's position at this sample instead of the world's own hit.
     pub index: Option<u32>,
 }
 
-impl InFixedWorld for Walk<'_> {
-    type Output = Result<Trace, SetupError>;
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-        self.trace(world)
-    }
-}
+impl WithSetup for Walk {
+    type Output = Trace;
 
-impl Walk<'_> {
-    pub fn trace<W: Complete>(&self, world: W) -> Result<Trace, SetupError> {
-        let memory = Memory::new(&world, self.scene, self.plan)?;
-        let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
-        let mut line = Line::new(&world, [self.column]);
-        let mut processor = Processor::new(&setup);
+    fn run<W: Complete>(self, setup: &Setup<W>) -> Trace {
+        let world = &setup.world;
+        let mut line = Line::new(world, [self.column]);
+        let mut processor = Processor::new(setup);
         for _ in 0..self.line {
             processor.skip_line();
         }
@@ -126,15 +116,17 @@ impl Walk<'_> {
         for unit in processor.chain().iter().filter(|unit| !unit.is_idle()) {
             let name = unit.description().name;
             let mut own = Readings { unit: name, readings: &mut readings };
-            self.inside(&setup, name, &line, &mut own, &mut trace);
+            self.inside(setup, name, &line, &mut own, &mut trace);
             for wire in unit.outputs() {
                 own.wire(&line, wire);
             }
         }
         trace.readings = readings;
-        Ok(trace)
+        trace
     }
+}
 
+impl Walk {
     /// What a unit has inside, between the wires.
     fn inside<W: Complete>(
         &self,

@@ -9,7 +9,7 @@ use crate::sink::picture::{self, Legend, NOTHING, Picture, SILHOUETTE};
 use super::panel::{MARGIN, height, width, wrapped, write};
 use super::{ALERT, Canvas, TEXT};
 use crate::view::session::Session;
-use crate::view::shown::{Image, LineState, Shown};
+use crate::view::snapshot::{Image, LineState, Snapshot};
 
 /// Distance of legends from the corners of the window.
 const CORNER: i32 = 8;
@@ -24,12 +24,12 @@ type Swatch = ([u8; 3], &'static str);
 pub(super) fn draw(
     canvas: &mut Canvas,
     session: &Session,
-    shown: &Shown,
+    snapshot: &Snapshot,
     divider: Option<usize>,
     bottom: i32,
 ) {
     let sides = session.panes().len();
-    for (index, image) in shown.images.iter().take(sides).enumerate() {
+    for (index, image) in snapshot.images.iter().take(sides).enumerate() {
         let window = canvas.size().0 as i32;
         // The part of the window that the side has to itself.
         let (from, to) = match (divider.map(|x| x as i32), index) {

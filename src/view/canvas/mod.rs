@@ -17,7 +17,7 @@ use embedded_graphics::primitives::{PrimitiveStyle, Rectangle, StyledDrawable, T
 
 use super::layout::Layout;
 use super::session::Session;
-use super::shown::{BLANK, Image, LineState, Shown};
+use super::snapshot::{BLANK, Image, LineState, Snapshot};
 
 /// Colour beside the raster, where the window is no multiple of it.
 const BESIDE: [u8; 3] = [0, 0, 0];
@@ -62,30 +62,30 @@ impl Canvas {
     }
 
     /// Draws what is shown of a session. Wall times are left out unless `timed`.
-    pub fn compose(&mut self, session: &Session, shown: &Shown, timed: bool) {
+    pub fn compose(&mut self, session: &Session, snapshot: &Snapshot, timed: bool) {
         let layout = session.layout();
         (self.width, self.height) = (layout.width, layout.height);
         self.pixels.clear();
         self.pixels.resize(self.width * self.height, packed(BESIDE));
         let divider = session.divider().map(|place| layout.across(place));
-        self.raster(&layout, shown, divider);
+        self.raster(&layout, snapshot, divider);
         if let Some(x) = divider {
             self.divider(&layout, x);
         }
-        if let Some(line) = shown.scan {
-            self.scan(&layout, shown, line);
+        if let Some(line) = snapshot.scan {
+            self.scan(&layout, snapshot, line);
         }
         if session.shows_panels() {
-            let bottom = status::draw(self, session, shown, timed);
-            legend::draw(self, session, shown, divider, bottom);
+            let bottom = status::draw(self, session, snapshot, timed);
+            legend::draw(self, session, snapshot, divider, bottom);
         }
         if session.shows_help() {
             help::draw(self);
         }
     }
 
-    fn raster(&mut self, layout: &Layout, shown: &Shown, divider: Option<usize>) {
-        let [left, right] = [0, 1].map(|i| shown.images.get(i).or(shown.images.first()));
+    fn raster(&mut self, layout: &Layout, snapshot: &Snapshot, divider: Option<usize>) {
+        let [left, right] = [0, 1].map(|i| snapshot.images.get(i).or(snapshot.images.first()));
         let split = divider.map_or(layout.width, |x| x.clamp(layout.left, layout.width));
         let end = (layout.left + layout.columns * layout.scale).min(layout.width);
         let mut row = vec![packed(BLANK); layout.columns];
@@ -93,7 +93,7 @@ impl Canvas {
             let top = layout.top + line * layout.scale;
             for (image, from, to) in [(left, layout.left, split.min(end)), (right, split, end)] {
                 let Some(image) = image.filter(|_| from < to) else { continue };
-                enlarge(image, line, layout, shown.by_lines, &mut row);
+                enlarge(image, line, layout, snapshot.by_lines, &mut row);
                 for y in (top..top + layout.scale).take_while(|&y| y < self.height) {
                     let out = &mut self.pixels[y * self.width..][from..to];
                     for (x, pixel) in (from..).zip(out) {
@@ -117,12 +117,12 @@ impl Canvas {
         }
     }
 
-    fn scan(&mut self, layout: &Layout, shown: &Shown, line: u32) {
-        let lines = shown.images.first().map_or(0, |image| image.lines).max(1);
+    fn scan(&mut self, layout: &Layout, snapshot: &Snapshot, line: u32) {
+        let lines = snapshot.images.first().map_or(0, |image| image.lines).max(1);
         let place = (line as usize).min(lines) * layout.lines * layout.scale / lines;
         let y = (layout.top + place) as i32;
         let (left, width) = (layout.left as i32, layout.columns * layout.scale);
-        if shown.by_lines && (line as usize) < lines {
+        if snapshot.by_lines && (line as usize) < lines {
             self.fill(left, y, width as u32, 1, MARK);
         }
         for (edge, side) in [(left, 1), (left + width as i32 - 1, -1)] {

@@ -3,19 +3,23 @@
 use crate::frame::Hit;
 use crate::scene::{Deformation, Extent, Scene, Surface};
 use crate::study::error::Sheet;
-use crate::study::explain::hit_name;
+use crate::study::probe::Probe;
 
 use super::legend::figure;
 use super::panel::{MARGIN, height, rows, write};
 use super::{ALERT, Canvas, TEXT};
 use crate::view::camera;
 use crate::view::pane::Source;
-use crate::view::probe::{Modelled, Probe};
 use crate::view::session::Session;
-use crate::view::shown::{Shown, Timing};
+use crate::view::snapshot::{FrameRate, Snapshot, Timing};
 
 /// Draws the status line at the bottom and returns where it begins.
-pub(super) fn draw(canvas: &mut Canvas, session: &Session, shown: &Shown, timed: bool) -> i32 {
+pub(super) fn draw(
+    canvas: &mut Canvas,
+    session: &Session,
+    snapshot: &Snapshot,
+    timed: bool,
+) -> i32 {
     let font = canvas.font();
     let (wide, tall) = (canvas.size().0 as i32, canvas.size().1 as i32);
     let space = wide - 2 * MARGIN;
@@ -23,20 +27,20 @@ pub(super) fn draw(canvas: &mut Canvas, session: &Session, shown: &Shown, timed:
     let mut add = |items: &[String], color| {
         lines.extend(rows(font, items, "   ", space).into_iter().map(|row| (row, color)));
     };
-    if let Some(trouble) = &shown.facts.trouble {
+    if let Some(trouble) = &snapshot.facts.trouble {
         add(&[format!("cannot draw: {trouble}")], ALERT);
     }
     if let Some(notice) = session.notice() {
         add(&[notice.to_owned()], ALERT);
     }
-    match &shown.facts.probe {
+    match &snapshot.facts.probe {
         Some(found) if session.pointed() == Some((found.column, found.line)) => {
             add(&probe(found), TEXT);
         }
         _ => {}
     }
     add(&craft(session.scene()), TEXT);
-    add(&work(session, shown, timed), TEXT);
+    add(&work(session, snapshot, timed), TEXT);
 
     let row = height(font);
     // In a small window the picture keeps two thirds; what is most urgent stands first.
@@ -72,7 +76,7 @@ fn craft(scene: &Scene) -> Vec<String> {
     items
 }
 
-fn work(session: &Session, shown: &Shown, timed: bool) -> Vec<String> {
+fn work(session: &Session, snapshot: &Snapshot, timed: bool) -> Vec<String> {
     let scene = session.scene();
     let mut items = Vec::new();
     if let Surface::Terrain(_) = scene.surface {
@@ -88,19 +92,19 @@ fn work(session: &Session, shown: &Shown, timed: bool) -> Vec<String> {
     let layout = session.layout();
     let scale = if layout.scale > 1 { format!(" x {}", layout.scale) } else { String::new() };
     let raster = format!("{}x{}{scale}", layout.columns, layout.lines);
-    items.push(format!("{raster}, {}", shown.facts.world));
-    items.push(pace(session, shown));
-    if timed && !shown.facts.timings.is_empty() {
-        let times: Vec<String> = shown.facts.timings.iter().map(time).collect();
+    items.push(format!("{raster}, {}", snapshot.facts.world));
+    items.push(pace(session, snapshot));
+    if timed && !snapshot.facts.timings.is_empty() {
+        let times: Vec<String> = snapshot.facts.timings.iter().map(time).collect();
         items.push(times.join(", "));
     }
-    items.extend(shown.facts.modelled.as_ref().map(modelled));
+    items.extend(snapshot.facts.frame_rate.as_ref().map(frame_rate));
     items
 }
 
-fn pace(session: &Session, shown: &Shown) -> String {
+fn pace(session: &Session, snapshot: &Snapshot) -> String {
     let pace = session.pace();
-    let line = match shown.scan.filter(|_| shown.by_lines) {
+    let line = match snapshot.scan.filter(|_| snapshot.by_lines) {
         Some(line) => format!(", line {line}"),
         None => String::new(),
     };
@@ -114,16 +118,13 @@ fn pace(session: &Session, shown: &Shown) -> String {
 
 fn time(Timing { source, ms }: &Timing) -> String {
     let name = match source {
-        Source::Fast => "fast",
-        Source::Processor => "processor",
-        Source::Real => "real",
-        Source::Oracle => "oracle",
-        Source::FixedError | Source::RealError => "errors",
+        Source::Frame(engine) => engine.name(),
+        Source::Error(_) => "errors",
     };
     if *ms < 10.0 { format!("{name} {ms:.1} ms") } else { format!("{name} {ms:.0} ms") }
 }
 
-fn modelled(Modelled { fps, clock_mhz, counted, lines }: &Modelled) -> String {
+fn frame_rate(FrameRate { fps, clock_mhz, counted, lines }: &FrameRate) -> String {
     let sampled =
         if counted < lines { format!(" ({counted} of {lines} lines)") } else { String::new() };
     format!("machine {} frames/s at {} MHz{sampled}", figure(*fps), figure(*clock_mhz))
@@ -137,7 +138,7 @@ fn probe(probe: &Probe) -> Vec<String> {
             items.push(format!("{what} {:.3} {:.3} {:.3}", point.x, point.y, point.z));
             items.push(format!("step {}", probe.steps));
         }
-        None => items.push(hit_name(probe.hit).into()),
+        None => items.push(probe.hit.name().into()),
     }
     items.push(match probe.cycles {
         1 => "1 cycle".into(),

@@ -1,11 +1,11 @@
-//! What the drawing hands to the canvas: pictures as far as they are drawn, and what was measured.
+//! What the render worker hands to the canvas: pictures as far as they are drawn, and what was
+//! measured.
 
 use std::sync::Arc;
 
-use crate::sink::picture::{Legend, Painted};
-
 use super::pane::{Pane, Source};
-use super::probe::{Modelled, Probe};
+use crate::sink::picture::{Legend, Painted};
+use crate::study::probe::Probe;
 
 /// Colour of pixels that nothing has been drawn on.
 pub const BLANK: [u8; 3] = [24, 24, 26];
@@ -105,10 +105,23 @@ impl Image {
 /// How long a whole frame took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
-    /// Who drew.
+    /// What was drawn.
     pub source: Source,
     /// Milliseconds, coefficient set-up in, maps and tables out.
     pub ms: f64,
+}
+
+/// Frame rate of the emulated machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameRate {
+    /// Frames per second at the scene's clock.
+    pub fps: f64,
+    /// Clock in MHz.
+    pub clock_mhz: f64,
+    /// Lines whose cycles were counted.
+    pub counted: u32,
+    /// Lines of the frame.
+    pub lines: u32,
 }
 
 /// What is known beside the pictures.
@@ -119,17 +132,17 @@ pub struct Facts {
     /// Whole frames at full rate, one per source.
     pub timings: Vec<Timing>,
     /// Speed of the emulated machine.
-    pub modelled: Option<Modelled>,
+    pub frame_rate: Option<FrameRate>,
     /// The pixel under the cursor.
     pub probe: Option<Probe>,
     /// Why nothing can be drawn.
     pub trouble: Option<String>,
 }
 
-/// A moment of the drawing.
+/// The pictures and measurements of one moment.
 #[derive(Clone, Debug, Default)]
-pub struct Shown {
-    /// Grows with every moment.
+pub struct Snapshot {
+    /// Grows with every snapshot.
     pub version: u64,
     /// Left and, where there is a divider, right.
     pub images: Vec<Arc<Image>>,

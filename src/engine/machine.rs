@@ -1,0 +1,164 @@
+//! A scene's machine, set up.
+
+use std::sync::OnceLock;
+use std::time::Instant;
+
+use super::list::Engine;
+use super::memories::{Memories, SetUpTime};
+use super::world::FixedWorld;
+use crate::oracle::Oracle;
+use crate::plan::{Ground, Plan};
+use crate::scene::Scene;
+use crate::setup::{Setup, SetupError};
+use crate::word::Complete;
+use crate::word::real::Real;
+use crate::word::stock::{Narrow, Wide};
+use crate::word::sweep::Sweep;
+
+/// A planned scene, set up in its fixed-point world; the same units in f64 and the oracle are set
+/// up when they are first asked for.
+pub struct Machine<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) plan: &'a Plan,
+    world: FixedWorld,
+    memories: Memories,
+    pub(super) fixed: Fixed,
+    time: SetUpTime,
+    real: OnceLock<(Setup<Real>, SetUpTime)>,
+    oracle: OnceLock<(Oracle, SetUpTime)>,
+}
+
+/// The set-up in its world.
+pub(super) enum Fixed {
+    Narrow(Setup<Narrow>),
+    Wide(Setup<Wide>),
+    Sweep(Setup<Sweep>),
+}
+
+/// The same code for each world that a set-up may be in.
+macro_rules! in_fixed {
+    ($fixed:expr, $setup:ident => $work:expr) => {
+        match $fixed {
+            $crate::engine::machine::Fixed::Narrow($setup) => $work,
+            $crate::engine::machine::Fixed::Wide($setup) => $work,
+            $crate::engine::machine::Fixed::Sweep($setup) => $work,
+        }
+    };
+}
+pub(super) use in_fixed;
+
+/// Work that is generic over the fixed-point world, on a machine's set-up in it.
+pub trait WithSetup {
+    /// Result.
+    type Output;
+    /// Does the work.
+    fn run<W: Complete>(self, setup: &Setup<W>) -> Self::Output;
+}
+
+impl<'a> Machine<'a> {
+    /// Sets up a scene in the fixed-point world of its plan.
+    ///
+    /// # Errors
+    /// If the eye is under the ground, a register of `[format]` does not exist or cannot have its
+    /// format, or a value does not fit it.
+    pub fn new(scene: &'a Scene, plan: &'a Plan, memories: &Memories) -> Result<Self, SetupError> {
+        Self::in_world(FixedWorld::of(scene, plan)?, scene, plan, memories)
+    }
+
+    /// Sets up a scene in a fixed-point world that may be another than that of its plan.
+    ///
+    /// # Errors
+    /// As [`Machine::new`].
+    pub fn in_world(
+        world: FixedWorld,
+        scene: &'a Scene,
+        plan: &'a Plan,
+        memories: &Memories,
+    ) -> Result<Self, SetupError> {
+        let (fixed, time) = match world {
+            FixedWorld::Narrow(world) => {
+                let (setup, time) = memories.set_up_timed(world, scene, plan)?;
+                (Fixed::Narrow(setup), time)
+            }
+            FixedWorld::Wide(world) => {
+                let (setup, time) = memories.set_up_timed(world, scene, plan)?;
+                (Fixed::Wide(setup), time)
+            }
+            FixedWorld::Sweep(world) => {
+                let (setup, time) = memories.set_up_timed(world, scene, plan)?;
+                (Fixed::Sweep(setup), time)
+            }
+        };
+        let (memories, real, oracle) = (memories.clone(), OnceLock::new(), OnceLock::new());
+        Ok(Self { scene, plan, world, memories, fixed, time, real, oracle })
+    }
+
+    /// Its scene.
+    #[must_use]
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// Its plan.
+    #[must_use]
+    pub fn plan(&self) -> &'a Plan {
+        self.plan
+    }
+
+    /// Its fixed-point world.
+    #[must_use]
+    pub fn world(&self) -> FixedWorld {
+        self.world
+    }
+
+    /// Runs generic work on the set-up in the fixed-point world.
+    pub fn run<J: WithSetup>(&self, work: J) -> J::Output {
+        in_fixed!(&self.fixed, setup => work.run(setup))
+    }
+
+    /// The same units in f64.
+    ///
+    /// # Errors
+    /// If the eye is under the ground there.
+    pub fn real(&self) -> Result<&Setup<Real>, SetupError> {
+        Ok(&self.timed_real()?.0)
+    }
+
+    fn timed_real(&self) -> Result<&(Setup<Real>, SetUpTime), SetupError> {
+        if let Some(real) = self.real.get() {
+            return Ok(real);
+        }
+        let real = self.memories.set_up_timed(Real, self.scene, self.plan)?;
+        Ok(self.real.get_or_init(|| real))
+    }
+
+    /// The oracle of the plan's screen. On maps without end it follows rays as far as a position
+    /// register reaches; the machine's walk may end before that, as out of range.
+    #[must_use]
+    pub fn oracle(&self) -> &Oracle {
+        &self.timed_oracle().0
+    }
+
+    fn timed_oracle(&self) -> &(Oracle, SetUpTime) {
+        self.oracle.get_or_init(|| {
+            let start = Instant::now();
+            let mut oracle = Oracle::new(self.scene, &self.plan.screen);
+            if let Ground::Terrain(walk) = &self.plan.ground {
+                oracle = oracle.with_reach_cells(walk.extreme);
+            }
+            (oracle, SetUpTime { coefficients: start.elapsed(), ..SetUpTime::default() })
+        })
+    }
+
+    /// How long an engine took to set up, which is done now if nobody has asked for it before.
+    ///
+    /// # Errors
+    /// If it cannot be set up.
+    pub fn set_up_time(&self, engine: Engine) -> Result<SetUpTime, SetupError> {
+        Ok(match engine {
+            Engine::Processor | Engine::Fast => self.time,
+            Engine::Real => self.timed_real()?.1,
+            Engine::Oracle => self.timed_oracle().1,
+        })
+    }
+}

@@ -1,0 +1,31 @@
+//! What the window wants to have drawn.
+
+use std::sync::Arc;
+
+use super::pane::Pane;
+use crate::scene::Scene;
+
+/// What is to be drawn.
+#[derive(Clone, Debug)]
+pub struct Order {
+    /// The scene; its first screen is drawn, of at most [`MAX_PIXELS`].
+    pub scene: Arc<Scene>,
+    /// Every unit fitted.
+    pub full: bool,
+    /// Left and, where there is a divider, right.
+    pub panes: Vec<Pane>,
+    /// Lines as they are granted; otherwise whole frames.
+    pub by_lines: bool,
+}
+
+/// Pixels of a raster that can be shown: their values take about 90 bytes each.
+pub const MAX_PIXELS: usize = 1 << 24;
+
+impl Order {
+    /// Columns and lines.
+    #[must_use]
+    pub fn raster(&self) -> (usize, usize) {
+        let screen = &self.scene.screens[0];
+        (screen.columns as usize, screen.lines as usize)
+    }
+}

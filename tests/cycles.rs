@@ -63,7 +63,8 @@ fn simulate(chain: &Chain, machine: &Case, work: &[Work], sink: Sink) -> Vec<u64
             }
             let arrived = unit == 0
                 || taken[unit - 1].get(item).is_some_and(|&at| {
-                    at + cycles(unit - 1, item) - 1 + u64::from(chain.stages[unit - 1].timing.latency)
+                    at + cycles(unit - 1, item) - 1
+                        + u64::from(chain.stages[unit - 1].timing.latency)
                         <= now
                 });
             let idle = item == 0 || taken[unit][item - 1] + cycles(unit, item - 1) <= now;

@@ -12,10 +12,10 @@ use terraline::frame::Hit;
 use terraline::plan::formats::Formats;
 use terraline::plan::{Plan, WordClass};
 use terraline::scene::{Deformation, Kernel, KernelShape, Outside, Scene, WordSize};
-use terraline::unit::{Line, Unit as _};
 use terraline::unit::height_memory::{Edge, HeightMemory};
 use terraline::unit::interpolator::{Form, Interpolator};
 use terraline::unit::stepper::SurfaceUnit;
+use terraline::unit::{Line, Unit as _};
 use terraline::word::stock::{Narrow, Wide};
 use terraline::word::sweep::{Sweep, SweepFormat};
 use terraline::word::{

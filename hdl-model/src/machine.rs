@@ -137,9 +137,8 @@ impl<'a, W: Complete> Machine<'a, W> {
     pub fn new(setup: &'a Setup<W>) -> Result<Self, String> {
         let mut rtl = Model::new(&model_for(setup)?);
         let six = |names: [&str; 6]| names.map(|name| rtl.port(name));
-        let probe = |stage: &str, wire| {
-            rtl.find(&port_name(stage, wire)).map(|port| Probe { wire, port })
-        };
+        let probe =
+            |stage: &str, wire| rtl.find(&port_name(stage, wire)).map(|port| Probe { wire, port });
         let of_stage = |stage: &&str| {
             wires(setup, stage).into_iter().filter_map(|wire| probe(stage, wire)).collect()
         };

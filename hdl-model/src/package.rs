@@ -59,11 +59,7 @@ pub fn package() -> String {
         ),
         ("RAY_END", stepper::RAY_END, "cycles of a hit besides its halvings"),
         ("KERNEL_LATENCY", kernel_rom::LATENCY, "cycles of kernel ROM and blend"),
-        (
-            "LERP_LATENCY",
-            interpolator::LERP_LATENCY,
-            "stages of a height behind nodes and weights",
-        ),
+        ("LERP_LATENCY", interpolator::LERP_LATENCY, "stages of a height behind nodes and weights"),
         ("SLOPE_LATENCY", interpolator::SLOPE_LATENCY, "stages of the slopes' factors"),
         ("SHADER_LATENCY", shader::TIMING.latency, "L of the shader"),
         ("SHADER_DEPTH", shader::TIMING.depth, "D of the shader"),
@@ -127,7 +123,8 @@ pub fn registers() -> String {
 }
 
 /// Where the generated part of rtl/terraline.sv begins and ends.
-const BANK: [&str; 2] = ["  // ---- Generated: the bank of coefficients\n", "  // ---- End of what is generated\n"];
+const BANK: [&str; 2] =
+    ["  // ---- Generated: the bank of coefficients\n", "  // ---- End of what is generated\n"];
 
 /// rtl/terraline.sv, its bank of coefficients made anew.
 ///
@@ -139,7 +136,9 @@ pub fn with_bank(machine: &str) -> Result<String, String> {
     let (_, after) = rest.split_once(BANK[1]).ok_or_else(missing)?;
     let mut bank = String::new();
     for coefficient in coefficients::all() {
-        let range = range(coefficient).replace("(WIDE == 1 ? 64 : 32)", "W").replace("(WIDE == 1 ? 26 : 12)", "CELL");
+        let range = range(coefficient)
+            .replace("(WIDE == 1 ? 64 : 32)", "W")
+            .replace("(WIDE == 1 ? 26 : 12)", "CELL");
         let _ = writeln!(bank, "  logic {range}{};", coefficient.name());
     }
     bank.push_str(

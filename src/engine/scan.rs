@@ -163,8 +163,7 @@ impl Machine<'_> {
             processor.skip_line();
         }
         let mut line = processor.wires();
-        let chain = || Chain::new(setup, &self.scene.machine, self.plan.fitted.idle);
-        let mut clock = wanted.cycles.then(|| Clock::new(chain()));
+        let mut clock = wanted.cycles.then(|| Clock::new(Chain::new(setup)));
         Scan::new(lines, move |lines, stop| {
             let frame = Frame::with_room(line.len(), lines.len(), wanted.buffers);
             let mut band = Band { frame, ..Band::default() };

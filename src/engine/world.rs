@@ -1,9 +1,9 @@
 //! The fixed-point world of a scene, by its plan's choice.
 
 use crate::fast::enter::Enterable;
-use crate::plan::{Plan, WordClass};
+use crate::plan::{Plan, WordClass, formats};
 use crate::scene::Scene;
-use crate::setup::{SetupError, formats};
+use crate::setup::SetupError;
 use crate::word::Complete;
 use crate::word::stock::{Narrow, Wide};
 use crate::word::sweep::Sweep;
@@ -31,7 +31,7 @@ impl FixedWorld {
     /// The world that a plan and the scene's `[format]` ask for.
     ///
     /// # Errors
-    /// If `[format]` names a register that does not exist or cannot have its format.
+    /// If `[format]` gives a register a format that it cannot have.
     pub fn of(scene: &Scene, plan: &Plan) -> Result<Self, SetupError> {
         Ok(if !scene.formats.is_empty() {
             Self::Sweep(formats::sweep(scene, plan)?)

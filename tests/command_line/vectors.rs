@@ -85,9 +85,11 @@ fn vectors_that_cannot_be_written() {
     vectors(&["--set", "camera.pich=3"], &["camera.pitch"]);
     let under = ["vectors", "valley", "-o", "out", "--set", "camera.position=[232.0, 1.0, 168.0]"];
     assert!(refused(&folder, &under).contains("camera.position"));
-    for options in
-        [&["--random", "0"][..], &["--corner-cases", "99999999999"], &["--lines", "2", "--random", "2"]]
-    {
+    for options in [
+        &["--random", "0"][..],
+        &["--corner-cases", "99999999999"],
+        &["--lines", "2", "--random", "2"],
+    ] {
         let output = folder.run(&[&["vectors", "plane", "-o", "out"], options].concat());
         assert_eq!(output.status.code(), Some(2), "{options:?}");
     }

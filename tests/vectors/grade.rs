@@ -9,8 +9,8 @@ use terraline::plan::Plan;
 use terraline::scene::Scene;
 use terraline::setup::{Back, Setup, TerrainUnits};
 use terraline::sink::vectors::selection::Selection;
-use terraline::unit::{Line, checker::Checker};
 use terraline::unit::line::Entry;
+use terraline::unit::{Line, checker::Checker};
 use terraline::word::{Complete, Load, Readout, Register};
 
 use super::reader::File;
@@ -220,10 +220,7 @@ impl Grade<'_> {
                 ("beyond_sky", Some((unit.beyond == Hit::Sky).into())),
             ],
         )?;
-        registers(
-            &self.files["interpolator"],
-            &[("weight_one", units.interpolator.one.raw())],
-        )?;
+        registers(&self.files["interpolator"], &[("weight_one", units.interpolator.one.raw())])?;
         let shader = &units.shader;
         if let Some(unit) = &shader.light {
             let file = &self.files["light"];

@@ -153,7 +153,9 @@ pub fn read(name: &str, text: &str) -> Result<File, String> {
     }
     let counts = header(&mut lines, "rows")?;
     let counts: Vec<usize> = counts.split(' ').filter_map(|n| n.parse().ok()).collect();
-    let [all, of_scene, corner_cases] = counts[..] else { return Err("rows: three numbers".into()) };
+    let [all, of_scene, corner_cases] = counts[..] else {
+        return Err("rows: three numbers".into());
+    };
     let mut rows = Vec::new();
     for line in lines {
         let words: Vec<&str> = line.split(' ').collect();

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use proptest::collection::vec;
 use proptest::prelude::*;
-use terraline::engine::{Engine, FixedWorld, Machine, Memories};
+use terraline::engine::{Engine, FixedWorld, Machine, Memories, Overflows, Wanted};
 use terraline::plan::formats::Formats;
 use terraline::plan::{Plan, WordClass};
 use terraline::scene::{FormatRequest, Scene, WordSize};
@@ -267,21 +267,6 @@ fn the_plan_speaks_of_the_formats_in_use() {
     assert_ne!(claims("flight", ("denominator", 2, 8)), "");
 }
 
-/// Pixels whose wires carry an overflow.
-struct Overflown<'a>(&'a Scene, &'a Plan);
-
-impl InFixedWorld for Overflown<'_> {
-    type Output = Result<Overflows, SetupError>;
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-        let Self(scene, plan) = self;
-        let memory = Memory::new(&world, scene, plan)?;
-        let setup = Setup::new(world, scene, plan, memory.as_ref())?;
-        let mut overflows = Overflows::default();
-        draw_by_lines(&setup, plan, false, |line| overflows.inspect(line));
-        Ok(overflows)
-    }
-}
-
 #[test]
 fn formats_that_are_proved_do_not_overflow() {
     let (proved, open) = (AtomicUsize::new(0), AtomicUsize::new(0));
@@ -296,8 +281,10 @@ fn formats_that_are_proved_do_not_overflow() {
         let mut scene = recipe.scene();
         scene.formats = formats;
         let Ok(plan) = Plan::new(&scene, None, false) else { return Ok(()) };
-        let Ok(world) = FixedWorld::of(&scene, &plan) else { return Ok(()) };
-        let Ok(overflows) = world.run(Overflown(&scene, &plan)) else { return Ok(()) };
+        let memories = Memories::default();
+        let Ok(machine) = Machine::new(&scene, &plan, &memories) else { return Ok(()) };
+        let scan = machine.scan(Engine::Processor, Wanted::default()).expect("no other world");
+        let overflows = scan.finish().overflows;
         if plan.not_proved.is_empty() {
             proved.fetch_add(1, Relaxed);
             prop_assert_eq!(overflows, Overflows::default(), "{:?}", scene.formats);

@@ -75,7 +75,7 @@ impl LinearScalar {
 /// The camera of one channel.
 #[derive(Clone, Debug)]
 pub struct Geometry {
-    /// Centre of projection r_h, ground frame, scene units.
+    /// Centre of projection r_h, ground frame, scene units (equation 3).
     pub eye: DVec3,
     /// Columns u, v, w of the screen's axes in the ground frame (equation 2).
     pub axes: DMat3,
@@ -97,7 +97,7 @@ impl Geometry {
         let axes = craft * rotation(screen.mount);
         let pitch = screen.pitch();
         let half = |count: u32| f64::from(count) / 2.0;
-        // Equation 4: sampled at pixel centres, line 0 at the top, column 0 at the left.
+        // Sampled at pixel centres, line 0 at the top, column 0 at the left (equation 4).
         let view = LinearVector {
             start: axes
                 * DVec3::new(

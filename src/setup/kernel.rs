@@ -1,4 +1,4 @@
-//! Finite functions and their derivatives in `f64`, for the kernel ROM (equations 12 to 17).
+//! Finite functions and their derivatives in `f64`, for the kernel ROM (equations 12, 16 and 17).
 
 use crate::scene::KernelShape;
 

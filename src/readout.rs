@@ -12,7 +12,7 @@ use crate::word::{Open, Readout};
 /// What one pixel's wires say, in scene units.
 #[derive(Clone, Copy, Debug)]
 pub struct PixelReadout {
-    /// λ of `r_p = r_h + λ V` (equation 8).
+    /// λ of `r_p = r_h + λ V` (equation 8; thesis 2.15).
     pub lambda: f64,
     /// The ground point; y is the surface's height there.
     pub point: DVec3,

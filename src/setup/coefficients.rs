@@ -22,9 +22,9 @@ use crate::word::{Dividing, Load, Open, Ratio, Register, Word, World};
 #[derive(Clone, Debug)]
 pub struct Coefficients {
     /// V along the axes of the registers, in cells, height units or squares, times 2^view_exponent
-    /// (equation 6).
+    /// (equation 6; thesis 2.37).
     pub view: LinearVector,
-    /// s n·V / |F| times 2^denominator_exponent (equations 8 and 9).
+    /// s n·V / |F| times 2^denominator_exponent (equations 8 and 9; thesis 2.15, 2.39).
     pub denominator: LinearScalar,
     /// Power of two on the view vector.
     pub view_exponent: i32,

@@ -1,5 +1,5 @@
 // A quantity that is linear in the screen, by one addition per pixel and one per line (equations 5
-// and 6): a register for the pixel, and one for the first column of its line.
+// and 6; thesis 2.36, 2.37): a register for the pixel, and one for the first column of its line.
 //
 // Never multiplies, rounds or saturates.
 module accumulator #(

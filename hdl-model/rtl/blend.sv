@@ -1,5 +1,6 @@
 // Weight and fall of one axis over 2×2 nodes: the hat's, plus the difference to the kernel shifted
-// right (equation 16 of docs/mathematics.md). Two cycles: differences, then shifts and sums.
+// right (equation 16 of docs/mathematics.md; thesis 2.59 to 2.61). Two cycles: differences, then
+// shifts and sums.
 //
 // The fall is the negated derivative of the weight, which the hat has one of. The shift rounds
 // toward zero: a floor would leave −1 ulp of a negative difference however far it is shifted. A

@@ -1,5 +1,5 @@
 // The ratio unit: where the ray meets a plane, ground = eye + floor(view * 2^shift / denominator)
-// (equations 9 and 10), for both axes.
+// (equations 9 and 10; thesis 2.39), for both axes.
 //
 // The numerator is shifted, and biased by denominator * 2^(bits-1) so that quotients are unsigned
 // and the range check is one comparison. SERIAL = 0: a pipelined array, one item per cycle, an item

@@ -1,5 +1,6 @@
 // The interpolator: surface height and slopes at a place on the ground, by finite functions
-// (equations 14 to 18 of docs/mathematics.md). SLOPES = 0 serves the stepper, SLOPES = 1 the hit.
+// (equations 14 to 18 of docs/mathematics.md; thesis 2.51, 2.52, 2.59 to 2.61, 2.63). SLOPES = 0
+// serves the stepper, SLOPES = 1 the hit.
 //
 // A token is a place. It is read in R cycles, 1 for 2×2 nodes and 4 for 3×3, whose requester holds
 // place and tag; the place reaches the memory in the same cycle. With the last read in cycle c, the

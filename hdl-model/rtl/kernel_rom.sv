@@ -1,5 +1,6 @@
 // The kernel ROM: tables of a finite function's weight and of its derivative (equations 12, 13 and
-// 17 of docs/mathematics.md), read at the entry nearest to an argument of either axis.
+// 17 of docs/mathematics.md; thesis 2.42 to 2.46, 2.63), read at the entry nearest to an argument
+// of either axis.
 //
 // entry = floor(s·2^t + ½), or 2^t − entry where it is mirrored. The words are there one cycle
 // after the argument. Never floored. A weight is taken to lie in [0, 1] and a slope in (−4, 4):

@@ -1,4 +1,5 @@
-// Height and slopes between 2×2 nodes (equations 14 and 15 of docs/mathematics.md).
+// Height and slopes between 2×2 nodes (equations 14 and 15 of docs/mathematics.md; thesis 2.51,
+// 2.52).
 //
 // Operands in cycle t give their results in cycle t + 5, one set per cycle: differences, two stages
 // of products along one axis, two along the other. Each lerp rounds its exact product once. Words

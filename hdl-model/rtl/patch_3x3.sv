@@ -1,4 +1,4 @@
-// Height and slopes between 3×3 nodes (equations 17 and 18 of docs/mathematics.md).
+// Height and slopes between 3×3 nodes (equations 17 and 18 of docs/mathematics.md; thesis 2.63).
 //
 // Takes the nodes in four consecutive cycles, as 2×2 blocks: north-west, south-west, north-east,
 // south-east (phases 0 to 3). A column of three nodes is complete in each of the phases 1 to 3 and

@@ -1,5 +1,5 @@
-// The projector: view vector and denominator of every pixel of the scan (equations 5, 6, 8), one
-// pixel per cycle, by additions alone.
+// The projector: view vector and denominator of every pixel of the scan (equations 5, 6, 8;
+// thesis 2.15, 2.36, 2.37), one pixel per cycle, by additions alone.
 module projector #(
     parameter int WIDE = 0  // words of 64 bits, not 32
 ) (

@@ -1,4 +1,5 @@
-// One axis of a ray's walk: three accumulators and the place ahead (equations 19, 21 and 22).
+// One axis of a ray's walk: three accumulators and the place ahead (equations 19, 21 and 22;
+// thesis 2.1).
 //
 // `place` is the last place known to be clear. `follow` is the one whose answer comes next: a step further
 // than `place`, or while a hit is halved the middle between `place` and it. `issue` is the next sample of a

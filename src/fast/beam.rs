@@ -3,7 +3,7 @@
 //! The k-th samples of neighbouring rays lie in a box, whose sides move with k as straight lines.
 //! Between two indices the boxes lie in the box around both, so that no ray of the tile hits there
 //! if the lowest of its rays is at or above the highest node of the blocks around that box. All of
-//! it is exact: places and steps are integers, and samples of a ray lie on a line.
+//! it is exact: places and steps are integers, and samples of a ray lie on a line (equation 34).
 
 use fearless_simd::prelude::*;
 

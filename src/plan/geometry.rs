@@ -75,11 +75,11 @@ impl LinearScalar {
 /// The camera of one channel.
 #[derive(Clone, Debug)]
 pub struct Geometry {
-    /// Centre of projection r_h, ground frame, scene units.
+    /// Centre of projection r_h, ground frame, scene units (equation 3; thesis 2.16, 2.21).
     pub eye: DVec3,
-    /// Columns u, v, w of the screen's axes in the ground frame (equation 2).
+    /// Columns u, v, w of the screen's axes in the ground frame (equation 2; thesis 2.38).
     pub axes: DMat3,
-    /// View vector V of pixel (line, column), scene units (equation 4).
+    /// View vector V of pixel (line, column), scene units (equation 4; thesis 2.34).
     pub view: LinearVector,
     /// Pixels across.
     pub columns: u32,
@@ -97,7 +97,8 @@ impl Geometry {
         let axes = craft * rotation(screen.mount);
         let pitch = screen.pitch();
         let half = |count: u32| f64::from(count) / 2.0;
-        // Equation 4: sampled at pixel centres, line 0 at the top, column 0 at the left.
+        // Sampled at pixel centres, line 0 at the top, column 0 at the left (equation 4;
+        // thesis 2.34).
         let view = LinearVector {
             start: axes
                 * DVec3::new(
@@ -129,7 +130,7 @@ impl Geometry {
     }
 }
 
-/// Columns u, v, w of an attitude (equations 1 and 2).
+/// Columns u, v, w of an attitude (equations 1 and 2; thesis 2.17, 2.38).
 fn axes_of(attitude: &Attitude) -> DMat3 {
     match *attitude {
         Attitude::Angles(angles) => rotation(angles),
@@ -141,7 +142,7 @@ fn axes_of(attitude: &Attitude) -> DMat3 {
     }
 }
 
-/// `R_Y(heading) R_Z(pitch) R_X(roll)`, multiplied out (equation 2).
+/// `R_Y(heading) R_Z(pitch) R_X(roll)`, multiplied out (equation 2; thesis 2.38).
 fn rotation(angles: Angles) -> DMat3 {
     let (sin_h, cos_h) = libm::sincos(angles.heading);
     let (sin_p, cos_p) = libm::sincos(angles.pitch);

@@ -1,4 +1,4 @@
-//! Where registers can go: the walk over a height map, proved before the first line.
+//! Where registers can go: the walk over a height map, proved before the first line (equation 32).
 //!
 //! All lengths here are in cells (x, z) and height units (y).
 

@@ -24,9 +24,10 @@ use crate::word::{Dividing, Load, Open, Ratio, Register, Word, World};
 /// View vector and denominator as the projector accumulates them, scaled by powers of two.
 #[derive(Clone, Debug)]
 pub struct Coefficients {
-    /// V along the axes of the registers, in cells, height units or squares, times 2^view_exponent.
+    /// V along the axes of the registers, in cells, height units or squares, times 2^view_exponent
+    /// (equation 6; thesis 2.37).
     pub view: LinearVector,
-    /// s n·V / |F| times 2^denominator_exponent.
+    /// s n·V / |F| times 2^denominator_exponent (equations 8 and 9; thesis 2.15, 2.39).
     pub denominator: LinearScalar,
     /// Power of two on the view vector.
     pub view_exponent: i32,

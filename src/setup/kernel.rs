@@ -1,4 +1,5 @@
-//! Finite functions and their derivatives in `f64`, for the kernel ROM (equations 12 to 17).
+//! Finite functions and their derivatives in `f64`, for the kernel ROM (equations 12, 16 and 17;
+//! thesis 2.42 to 2.46, 2.59 to 2.61, 2.63).
 
 use crate::scene::KernelShape;
 
@@ -59,8 +60,8 @@ pub fn most_curved(shape: KernelShape) -> f64 {
 }
 
 /// Outer weights of deformation 1, `α · ⅔ f(⅔t)` on (−3/2, 3/2), with `α = ¾ / f(⅓)` so that the
-/// patches around neighbouring nodes meet half-way between them (equation 17); α = 1 for the
-/// cosine.
+/// patches around neighbouring nodes meet half-way between them (equation 17; thesis 2.63); α = 1
+/// for the cosine.
 pub fn stretched(shape: KernelShape, t: f64) -> f64 {
     meeting(shape) * (2.0 / 3.0) * value(shape, 2.0 / 3.0 * t)
 }

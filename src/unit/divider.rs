@@ -3,9 +3,9 @@
 //! *In hardware*: per axis a non-restoring shift-subtract array, one quotient bit per stage
 //! (`word::array`), pipelined to one result per cycle, or serial with one bit per cycle.
 //!
-//! `ground = eye + view/denominator · 2^exponent` (equation 9 of docs/mathematics.md): the point
-//! where the ray meets a plane. On terrain the plane is that of the highest node, where rays
-//! enter the slab that the stepper walks through.
+//! `ground = eye + view/denominator · 2^exponent` (equation 9 of docs/mathematics.md; thesis 2.39):
+//! the point where the ray meets a plane. On terrain the plane is that of the highest node, where
+//! rays enter the slab that the stepper walks through.
 //!
 //! | wire in | wire out |
 //! |---|---|

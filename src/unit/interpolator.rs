@@ -4,9 +4,9 @@
 //! shift-and-add multipliers with one rounding each.
 //!
 //! - 2×2 nodes: `A = h2 + (h1−h2)·w(zd)`, `B = h4 + (h3−h4)·w(zd)`, `y = B + (A−B)·w(xd)`:
-//!   three multiplications (equation 14 of docs/mathematics.md).
+//!   three multiplications (equation 14 of docs/mathematics.md; thesis 2.51, 2.52).
 //! - 3×3 nodes: `h0 + (h₋−h0)·w₋ + (h₊−h0)·w₊` along z for three columns, then along x; the
-//!   centre weight is implicit (equation 17).
+//!   centre weight is implicit (equation 17; thesis 2.63).
 //!
 //! Each lerp rounds its exact product once, to nearest, so it stays within its nodes; constant
 //! maps are exact under every kernel, and under the hat tilted ones are within the two roundings:
@@ -154,7 +154,8 @@ impl<W: Interpolating> Interpolator<W> {
         self.one - fraction.rescale(0, self.weight_format, site.at(Register::Weight))
     }
 
-    /// The hat's weight plus the kernel's difference to it shifted right (equation 16).
+    /// The hat's weight plus the kernel's difference to it shifted right (equation 16; thesis 2.59
+    /// to 2.61).
     #[inline(always)]
     pub fn blend(
         &self,
@@ -217,7 +218,8 @@ impl<W: Interpolating> Interpolator<W> {
         }
     }
 
-    /// Surface height and slopes at a place (equations 14 to 18).
+    /// Surface height and slopes at a place (equations 14 to 18; thesis 2.51, 2.52, 2.59 to 2.61,
+    /// 2.63).
     #[inline(always)]
     pub fn sample(&self, x: W::Ground, z: W::Ground, site: Site) -> Sample<W> {
         if self.form == Form::Stretch {
@@ -376,7 +378,7 @@ fn lerp<H: Multiply<T>, T: Word>(from: H, to: H, weight: T, site: Site) -> H {
     from + (to - from).multiply(weight, site.at(Register::Surface))
 }
 
-/// The height between nodes h1 to h4 (equation 14).
+/// The height between nodes h1 to h4 (equation 14; thesis 2.51, 2.52).
 #[inline(always)]
 pub fn mix<H: Multiply<T>, T: Word>(
     [h1, h2, h3, h4]: [H; 4],

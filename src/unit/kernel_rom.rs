@@ -1,7 +1,8 @@
 //! The kernel ROM: tables of a finite function's weight and of its derivative.
 //!
 //! *In hardware*: two read-only tables of 2^t + 1 entries over the unit interval, read at the
-//! nearest entry (one addition of half an entry), two read ports. *Never*: floored.
+//! nearest entry (one addition of half an entry), two read ports. *Never*: floored, which would
+//! double the error of a weight (equation 13).
 
 use crate::word::{Cell, Word};
 

@@ -2,7 +2,7 @@
 //!
 //! *In hardware*: an accumulator per quantity, each with three coefficient registers. A quantity
 //! c linear in the screen, `c(j, k) = start + j·per_line + k·per_column` (equations 5 and 6 of
-//! docs/mathematics.md), costs one addition per pixel and one per line.
+//! docs/mathematics.md; thesis 2.36, 2.37), costs one addition per pixel and one per line.
 //!
 //! | wire out | class | is |
 //! |---|---|---|

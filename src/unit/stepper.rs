@@ -1,8 +1,8 @@
 //! The ray stepper: the first sample of a ray under the surface.
 //!
 //! *In hardware*: three position accumulators, `P ← P + ΔP` per step (equation 19 of
-//! docs/mathematics.md), a comparator against the interpolated surface, and for skipping a second
-//! set of adders for `P + J·ΔP` with two comparators against the pyramid's bound.
+//! docs/mathematics.md; thesis 2.1), a comparator against the interpolated surface, and for
+//! skipping a second set of adders for `P + J·ΔP` with two comparators against the pyramid's bound.
 //!
 //! The walk starts at the eye, or where the ray enters the slab under the highest node. ΔP is V
 //! shifted right and rounded to nearest so that its largest component lies between 2^−k−1 and 2^−k

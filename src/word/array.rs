@@ -1,4 +1,4 @@
-//! The non-restoring divider array, on integers: the datapath of `unit::divider`.
+//! The non-restoring divider array, on integers (equation 10): the datapath of `unit::divider`.
 
 /// Floor of `numerator · 2^shift / denominator` where it lies in `-2^(bits-1) .. 2^(bits-1)`.
 ///

@@ -42,8 +42,8 @@ fn every_unit_has_a_page() {
     for entry in std::fs::read_dir(root.join("src/unit")).unwrap() {
         let path = entry.unwrap().path();
         let stem = path.file_stem().unwrap().to_str().unwrap().to_owned();
-        // The module's root, the wires between the units and the stage of four of them are no units.
-        if !["mod", "line", "shader"].contains(&stem.as_str()) {
+        // The module's root, what units are made of, and the stage of four of them are no units.
+        if !["mod", "coefficient", "description", "line", "shader"].contains(&stem.as_str()) {
             assert!(root.join(format!("docs/units/{stem}.md")).exists(), "docs/units/{stem}.md");
         }
     }

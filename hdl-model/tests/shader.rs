@@ -24,7 +24,7 @@ use terraline::unit::pixel::Pixel;
 use terraline::unit::ramp::Ramp;
 use terraline::unit::shader::Shader;
 use terraline::word::stock::{Narrow, Wide};
-use terraline::word::{Cell, Lane, Register, World as _};
+use terraline::word::{Cell, Lane, Register};
 use terraline_hdl::Model;
 
 /// Entries per unit of the table, as a power of two.

@@ -221,11 +221,16 @@ const STEPPER: Proof = Proof {
         "ray_axis",
         "ray_step",
         "ray_end",
+        "ray_setup",
+        "ray_walk",
         "pyramid_axis",
         "pyramid",
+        "skip_test",
+        "sample_burst",
         "credit",
         "queue",
         "walk_plan",
+        "walk_end",
         "stepper",
     ],
     parameters: &[],
@@ -251,5 +256,5 @@ fn jumps_pass_no_sample_below_the_bound() {
     }
     let proof = Proof { parameters: &[("PART", 1), ("JUMP", 4)], cycles: Some(1), ..STEPPER };
     proof.holds(3, &["cover_jump"]);
-    proof.fails_with(("stepper", "(place_y >= bound && ahead_y >= bound)", "(place_y >= bound)"));
+    proof.fails_with(("skip_test", "(place_y >= bound && ahead_y >= bound)", "(place_y >= bound)"));
 }

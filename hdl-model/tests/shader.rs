@@ -1,5 +1,6 @@
 //! The shader against the emulator's, in every bit and cycle: real frames of many lights and ramps,
-//! and hostile coefficients and items within the ranges that the module states.
+//! and hostile coefficients and items within the ranges that the modules state; light and ramp by
+//! themselves as well, up to the wires between them and the mixer.
 #![cfg(rtl)]
 
 mod elastic;
@@ -24,51 +25,62 @@ use terraline::unit::pixel::Pixel;
 use terraline::unit::ramp::Ramp;
 use terraline::unit::shader::Shader;
 use terraline::word::stock::{Narrow, Wide};
-use terraline::word::{Cell, Lane, Register, World as _};
+use terraline::word::{Cell, Lane, Register};
 use terraline_hdl::Model;
 
 /// Entries per unit of the table, as a power of two.
 const RSQRT_LOG2: u32 = 10;
 const TAG: u64 = 0xffff;
 
-/// Drives the coefficient ports and fills the tables.
-fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &Shader<W>) {
+/// Writes words to a table, address by address, under a strobe.
+fn write(rtl: &mut Model, strobe: &str, words: impl Iterator<Item = (usize, i64)>) {
+    let [strobe, address, data] = [strobe, "load_address", "load_data"].map(|name| rtl.port(name));
+    rtl.set(strobe, 1);
+    for (at, word) in words {
+        rtl.set(address, at as u64);
+        rtl.set_signed(data, word);
+        rtl.edge();
+    }
+    rtl.set(strobe, 0);
+}
+
+/// Drives the light's coefficient ports and fills its table.
+fn load_light<W: Stock>(rtl: &mut Model, light: Option<&Light<W>>, strobe: &str) {
     let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
-    set("sky_color", packed(shader.pixel.sky) as i64);
-    set("far_color", packed(shader.pixel.out_of_range) as i64);
-    set("side_color", packed(shader.pixel.side) as i64);
-    set("lit", shader.light.is_some().into());
-    if let Some(light) = &shader.light {
+    set("lit", light.is_some().into());
+    if let Some(light) = light {
         assert_eq!(light.rsqrt_log2, RSQRT_LOG2);
         for (name, toward) in ["toward_x", "toward_y", "toward_z"].into_iter().zip(light.toward) {
             set(name, bits(toward));
         }
         set("ambient", bits(light.ambient));
+        write(rtl, strobe, light.rsqrt.iter().map(|&entry| bits(entry)).enumerate());
     }
-    let ramp = &shader.ramp;
+}
+
+/// The same of the ramp.
+fn load_ramp<W: Stock>(rtl: &mut Model, ramp: &Ramp<W>, strobe: &str) {
+    let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
     set("ramp_exponent", ramp.exponent.clamp(-128, 127).into());
     set("ramp_gain", bits(ramp.gain));
     set("ramp_last", ramp.segments.len() as i64 - 1);
-    let [address, data] = ["load_address", "load_data"].map(|name| rtl.port(name));
-    let [load_rsqrt, load_ramp] = ["load_rsqrt", "load_ramp"].map(|name| rtl.port(name));
-    let mut write = |strobe, at: usize, value: i64| {
-        rtl.set(strobe, 1);
-        rtl.set(address, at as u64);
-        rtl.set_signed(data, value);
-        rtl.edge();
-        rtl.set(strobe, 0);
-    };
-    if let Some(light) = &shader.light {
-        for (at, &entry) in light.rsqrt.iter().enumerate() {
-            write(load_rsqrt, at, bits(entry));
-        }
-    }
-    for (segment, channels) in ramp.segments.iter().enumerate() {
-        for (channel, &(start, rise)) in channels.iter().enumerate() {
-            write(load_ramp, segment * 8 + channel * 2, bits(start));
-            write(load_ramp, segment * 8 + channel * 2 + 1, bits(rise));
-        }
-    }
+    let words = ramp.segments.iter().enumerate().flat_map(|(segment, channels)| {
+        channels.iter().enumerate().flat_map(move |(channel, &(start, rise))| {
+            let at = segment * 8 + channel * 2;
+            [(at, bits(start)), (at + 1, bits(rise))]
+        })
+    });
+    write(rtl, strobe, words);
+}
+
+/// Drives the coefficient ports of the whole and fills its tables.
+fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &Shader<W>) {
+    let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
+    set("sky_color", packed(shader.pixel.sky) as i64);
+    set("far_color", packed(shader.pixel.out_of_range) as i64);
+    set("side_color", packed(shader.pixel.side) as i64);
+    load_light(rtl, shader.light.as_ref(), "load_rsqrt");
+    load_ramp(rtl, &shader.ramp, "load_ramp");
 }
 
 /// Runs the items of a line, whose colours the emulator has computed, through the module.
@@ -297,4 +309,57 @@ fn hostile_items_narrow() {
 #[test]
 fn hostile_items_wide() {
     hostile(Wide, 4);
+}
+
+/// Shade and albedo out of light and ramp alone, eleven cycles behind slopes and height.
+fn parts<W: Stock>(world: W, seed: u64) {
+    const ITEMS: usize = 2000;
+    const LATENCY: usize = 11;
+    let mut random = Random(seed);
+    let [mut light, mut ramp] =
+        ["light", "ramp"].map(|part| Model::new(&format!("{part}_{}", W::NAME)));
+    let [slope_x, slope_z, shade] = ["slope_x", "slope_z", "shade"].map(|name| light.port(name));
+    let [surface, albedo] = ["surface", "albedo"].map(|name| ramp.port(name));
+    for _ in 0..40 {
+        let shader = hostile_shader(world, &mut random);
+        load_light(&mut light, shader.light.as_ref(), "load");
+        load_ramp(&mut ramp, &shader.ramp, "load");
+        let mut line = Line::new(&world, 0..ITEMS as u32);
+        line.hit.fill(Hit::Surface);
+        for i in 0..ITEMS {
+            line.surface[i] = word(hostile_height::<W>(shader.ramp.exponent, &mut random));
+            line.slope_x[i] = word(random.word(W::WIDTH));
+            line.slope_z[i] = word(random.word(W::WIDTH));
+        }
+        shader.run(&mut line);
+        for cycle in 0..ITEMS + LATENCY {
+            if cycle < ITEMS {
+                light.set_signed(slope_x, bits(line.slope_x[cycle]));
+                light.set_signed(slope_z, bits(line.slope_z[cycle]));
+                ramp.set_signed(surface, bits(line.surface[cycle]));
+            }
+            light.settle();
+            ramp.settle();
+            if let Some(i) = cycle.checked_sub(LATENCY) {
+                let full = 1 << W::Tone::FRACTION;
+                let expected = if shader.mixer.shaded { bits(line.shade[i]) } else { full };
+                assert_eq!(light.get(shade) as i64, expected, "shade of {i}");
+                let count = W::Tone::FRACTION + 9;
+                let channels = [0, 1, 2].map(|at| ramp.bits(albedo, at * count, count) as i64);
+                assert_eq!(channels, line.albedo[i].map(bits), "albedo of {i}");
+            }
+            light.edge();
+            ramp.edge();
+        }
+    }
+}
+
+#[test]
+fn shade_and_albedo_narrow() {
+    parts(Narrow, 5);
+}
+
+#[test]
+fn shade_and_albedo_wide() {
+    parts(Wide, 6);
 }

@@ -20,7 +20,7 @@ use terraline::engine::{FixedWorld, draw_oracle};
 use terraline::frame::Frame;
 use terraline::plan::{Ground, Plan};
 use terraline::scene::file::{Document, parse};
-use terraline::scene::{Scene, SceneError, Surface, builtin, overlook, write};
+use terraline::scene::{Scene, SceneError, Surface, builtin, framing, write};
 use terraline::setup::SetupError;
 use terraline::study::cost::Measure;
 use terraline::study::error::{self, Sample};
@@ -28,9 +28,9 @@ use terraline::study::explain::explain;
 
 use super::damage::damages;
 use super::grids::grids;
-use super::support::{both, difference, draw_in_real, drawn, is_under_ground};
+use super::support::{both, described, difference, draw_in_real, drawn, is_under_ground};
 use super::wild::{options, scenes};
-use super::{EVERY_KEY, PEAK};
+use super::{EVERY_TABLE, PEAK};
 
 /// No case takes longer, a busy machine included: most take milliseconds.
 const LONGEST: Duration = Duration::from_secs(30);
@@ -163,7 +163,11 @@ fn parsed(text: &str, sets: &[String]) -> Result<Scene, SceneError> {
 /// A scene from a text and options; what is written of it reads back.
 fn from_text((text, sets): (String, Vec<String>)) -> Result<Scene, Stop> {
     let scene = parsed(&text, &sets).map_err(refused)?;
-    reads_back(&scene, &written(&scene))?;
+    let map = match &scene.surface {
+        Surface::Terrain(terrain) => terrain.source.as_str(),
+        Surface::Plane(_) => "",
+    };
+    reads_back(&scene, &write::toml(&scene, map))?;
     Ok(scene)
 }
 
@@ -171,16 +175,16 @@ fn from_text((text, sets): (String, Vec<String>)) -> Result<Scene, Stop> {
 fn from_grid((grid, sets): (String, Vec<String>)) -> Result<Scene, Stop> {
     let path = FOLDER.path().join("grid.asc");
     std::fs::write(&path, grid).map_err(|error| Stop::Wrong(error.to_string()))?;
-    let overlook = overlook::read(&path, &sets, Some((16, 12))).map_err(refused)?;
-    let file = overlook.file(&FOLDER.path().join("grid.toml")).map_err(refused)?;
-    reads_back(&overlook.scene, &file)?;
-    Ok(overlook.scene)
+    let framing = framing::read(&path, &sets, Some((16, 12))).map_err(refused)?;
+    let file = framing.file(&FOLDER.path().join("grid.toml")).map_err(refused)?;
+    reads_back(&framing.scene, &file)?;
+    Ok(framing.scene)
 }
 
-/// Whether a text holds a scene, as far as it can be written.
+/// Whether a text holds a scene, in every bit.
 fn reads_back(scene: &Scene, text: &str) -> Result<(), Stop> {
     match parsed(text, &[]) {
-        Ok(again) if written(&again) == written(scene) => Ok(()),
+        Ok(again) if described(&again) == described(scene) => Ok(()),
         Ok(_) => Err(Stop::Wrong(format!("is another scene when read back:\n{text}"))),
         Err(error) => Err(Stop::Wrong(format!("does not read back: {error}\n{text}"))),
     }
@@ -258,13 +262,6 @@ fn study(scene: &Scene, plan: &Plan, world: &FixedWorld, frame: &Frame) -> Resul
     Ok(())
 }
 
-fn written(scene: &Scene) -> String {
-    match &scene.surface {
-        Surface::Terrain(terrain) => write::toml(scene, &terrain.source),
-        Surface::Plane(_) => write::toml(scene, ""),
-    }
-}
-
 #[test]
 fn random_scenes() {
     fuzz(scenes().prop_map(|text| (text, Vec::new())), 0.2, from_text);
@@ -286,7 +283,7 @@ fn scenes_with_options() {
 #[test]
 fn damaged_built_in_scenes() {
     let mut texts: Vec<&str> = builtin::SCENES.iter().map(|scene| scene.toml).collect();
-    texts.push(EVERY_KEY);
+    texts.push(EVERY_TABLE);
     let damage = (select(texts), vec(damages(), 1..4), vec(options(), 0..2), weighted(0.8));
     let damaged = damage.prop_map(|(text, damages, sets, small)| {
         let text = damages.iter().fold(text.to_owned(), |text, damage| damage.to(&text));

@@ -105,7 +105,11 @@ fn table(head: &'static str, section: &Section, name: Option<&'static str>) -> T
             let name = key.name;
             let line =
                 values(&section.path, key).prop_map(move |value| format!("{name} = {value}\n"));
-            weighted(if always.contains(&name) { 1.0 } else { 0.6 }, line)
+            if always.contains(&name) {
+                line.prop_map(Some).boxed()
+            } else {
+                weighted(0.6, line).boxed()
+            }
         };
         let keys = section.keys.iter();
         let keys = keys.filter(|key| ![leave, &["kind", "name"]].concat().contains(&key.name));

@@ -8,11 +8,13 @@ use terraline::scene::keys::{Key, Kind, Section};
 pub type Text = BoxedStrategy<String>;
 
 /// Keys that must stand beside another, each with what stands there.
-const BESIDE: [(&str, &str); 5] = [
+const BESIDE: [(&str, &str); 7] = [
     ("screen.distance", "pixel = [1, 1]"),
     ("screen.pixel", "distance = 1"),
     ("format.NAME.width", "point = 1"),
     ("format.NAME.point", "width = 62"),
+    ("format.NAME.rounding", "width = 30, point = 9"),
+    ("format.NAME.overflow", "width = 30, point = 9"),
     ("camera.up", "forward = [1, 0, 0]"),
 ];
 
@@ -130,7 +132,7 @@ pub fn sound(key: &Key) -> Text {
         }
         Kind::Text { .. } => Just(default).boxed(),
         _ => {
-            let factors = prop::array::uniform3(0.3..1.5_f64);
+            let factors = prop::array::uniform3(0.3..1.0_f64);
             let scaled = factors.prop_map(move |factors| {
                 (0..3).fold(default.clone(), |text, at| scale_number(&text, at, factors[at]))
             });

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use terraline::frame;
+use terraline::scene::{keys, load, write};
 use terraline::setup::table;
 use terraline::word::Register;
 
@@ -21,6 +22,23 @@ fn is_current(file: &str, text: &str) {
 #[test]
 fn the_register_page_is_generated_from_the_table() {
     is_current("docs/registers.md", &table::markdown());
+}
+
+#[test]
+fn the_page_of_scene_keys_is_generated_from_their_declarations() {
+    is_current("docs/scene-keys.md", &keys::markdown());
+}
+
+#[test]
+fn the_overview_lists_every_key_with_its_meaning() {
+    let overview = load(Some("overview"), &[]).expect("a built-in scene");
+    let top = [
+        "Overview: the whole Jacksboro map from above its north edge, looking south and down.",
+        "Lengths in scene units, angles in degrees. x = column = east, z = row = south, y up. \
+         A key that is left out has the value it shows here, but for [camera].",
+    ];
+    let text = write::commented(&overview, "", &top.map(str::to_owned));
+    is_current("src/scene/builtin/overview.toml", &text);
 }
 
 #[test]

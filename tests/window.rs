@@ -16,7 +16,7 @@ use terraline::frame::{Frame, Hit};
 use terraline::oracle::Oracle;
 use terraline::plan::Plan;
 use terraline::scene::file::{Document, parse};
-use terraline::scene::{Scene, builtin};
+use terraline::scene::{Scene, load};
 use terraline::sink::picture::Picture;
 use terraline::study::explain::text::text;
 use terraline::view::action::Action;
@@ -54,7 +54,7 @@ impl Glass for Sizes {
 
 fn scene(name: &str, sets: &[&str]) -> Scene {
     let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
-    builtin::load(Some(name), &sets).expect("a built-in scene")
+    load(Some(name), &sets).expect("a built-in scene")
 }
 
 /// A run in glasses of these sizes: the last canvas, and what was printed.

@@ -7,7 +7,7 @@ use clap::Args;
 use super::Stop;
 use crate::engine::{Engine, FixedWorld, Machine, Memories};
 use crate::plan::Plan;
-use crate::scene::overlook::{self, Overlook};
+use crate::scene::framing::{self, Framing};
 use crate::scene::screen::{MAX_PIXELS, MAX_SIDE};
 use crate::scene::{
     self, FormatRequest, Overflow, Registers, Rounding, Scene, Surface, Terrain, list, registers,
@@ -60,7 +60,7 @@ pub struct Planned {
     /// How to name the scene and its overrides on a command line.
     pub invocation: String,
     /// The scene that was chosen for a height file.
-    pub overlook: Option<Overlook>,
+    pub framing: Option<Framing>,
 }
 
 impl Planned {
@@ -88,15 +88,15 @@ impl Planned {
 impl SceneArgs {
     /// Reads, overrides and plans the scene.
     pub fn load(&self) -> Result<Planned, Stop> {
-        let overlook = match self.scene.as_deref() {
-            Some(name) if scene::builtin::find(name).is_none() && overlook::applies(name) => {
+        let framing = match self.scene.as_deref() {
+            Some(name) if scene::builtin::find(name).is_none() && framing::applies(name) => {
                 let size = self.size.as_deref().map(parse_size).transpose()?;
-                Some(overlook::read(Path::new(name), &self.set, size)?)
+                Some(framing::read(Path::new(name), &self.set, size)?)
             }
             _ => None,
         };
-        let mut scene = match &overlook {
-            Some(overlook) => overlook.scene.clone(),
+        let mut scene = match &framing {
+            Some(framing) => framing.scene.clone(),
             None => scene::load(self.scene.as_deref(), &self.set)?,
         };
         for format in &self.format {
@@ -114,7 +114,7 @@ impl SceneArgs {
             .map_err(|error| located(error.to_string()))?;
         let world = FixedWorld::of(&scene, &plan).map_err(|error| located(error.to_string()))?;
         let (memories, invocation) = (Memories::default(), self.invocation());
-        Ok(Planned { scene, plan, world, memories, named: of.to_owned(), invocation, overlook })
+        Ok(Planned { scene, plan, world, memories, named: of.to_owned(), invocation, framing })
     }
 
     /// Whether registers have formats of their own, which no scene file of ours holds.

@@ -31,7 +31,7 @@ impl SceneOut {
         let Some(path) = &self.scene_out else { return Ok(None) };
         let refused =
             |reason: &str| Err(Stop::BadInput(format!("--scene-out {}: {reason}", path.display())));
-        let Some(overlook) = &planned.overlook else {
+        let Some(framing) = &planned.framing else {
             return refused(
                 "a scene is written for height files only; copy the scene file, or print a \
                  built-in scene with `terraline scenes NAME`",
@@ -40,7 +40,7 @@ impl SceneOut {
         if scene.has_formats() {
             return refused("--format is not written; leave it out, or write [format] by hand");
         }
-        Ok(Some(overlook.file(path)?))
+        Ok(Some(framing.file(path)?))
     }
 
     /// Writes the text, if there is one.

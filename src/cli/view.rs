@@ -95,7 +95,7 @@ mod open {
             let mut window =
                 Window::open(&title, layout.width, layout.height).map_err(no_display)?;
             self.scene_out.write(scene_text.as_deref())?;
-            for chosen in planned.overlook.iter().flat_map(|overlook| &overlook.chosen) {
+            for chosen in planned.framing.iter().flat_map(|framing| &framing.chosen) {
                 eprintln!("chosen: {chosen}");
             }
             let mut print = |text: &str| report::print(text);

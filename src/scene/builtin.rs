@@ -1,13 +1,11 @@
-//! Scenes and maps inside the program, and the one door to any scene: [`load`].
+//! Scenes and maps inside the program.
 
-use std::path::{Path, is_separator};
 use std::sync::{Arc, OnceLock};
 
 use super::error::{SceneError, list, nearest};
-use super::file::{self, Document};
+use super::fractal;
 use super::height_map::{HeightMap, MAX_NODES, MapError};
-use super::tree::shorten;
-use super::{Scene, fractal, overlook};
+use super::shown::shorten;
 
 /// A scene inside the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,50 +110,6 @@ fn side(name: &str, nodes: &str) -> Result<usize, MapError> {
         Ok(0 | 1) => Err(error(format!("{nodes} nodes a side enclose no ground"))),
         _ => Err(error(format!("{} nodes a side are too many", shorten(nodes)))),
     }
-}
-
-/// Loads a scene, with `--set` options applied: a built-in one by its name, a file, or a height
-/// file, which gets a scene that looks over it.
-///
-/// An argument with a path separator or the ending `.toml`, or that exists as a file, is a file; without an argument the
-/// default scene is loaded.
-///
-/// # Errors
-/// If there is no such scene, or as [`file::read`], [`file::parse`] and [`overlook::read`].
-pub fn load(name_or_path: Option<&str>, sets: &[String]) -> Result<Scene, SceneError> {
-    let name = name_or_path.unwrap_or(SCENES[0].name);
-    if let Some(scene) = find(name) {
-        return file::parse(
-            &Document {
-                name: scene.name,
-                file: &format!("builtin:{}", scene.name),
-                folder: Path::new(""),
-                text: scene.toml,
-            },
-            sets,
-        );
-    }
-    if overlook::applies(name) {
-        return overlook::read(Path::new(name), sets, None).map(|overlook| overlook.scene);
-    }
-    let names = || SCENES.iter().map(|scene| scene.name);
-    let path = Path::new(name);
-    if name.contains(is_separator) || name.ends_with(".toml") || path.exists() {
-        return file::read(path, sets).map_err(|error| match error {
-            SceneError::Unreadable { file, reason, .. } if !path.exists() => {
-                let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-                let guess = nearest(&stem, names())
-                    .map_or_else(String::new, |guess| format!(", did you mean `{guess}`?"));
-                let remedy = format!(
-                    "give a scene file that exists or a built-in scene: {}{guess}",
-                    list(names())
-                );
-                SceneError::Unreadable { file, reason, remedy }
-            }
-            other => other,
-        });
-    }
-    Err(unknown(name))
 }
 
 /// The error for a name that no built-in scene has.

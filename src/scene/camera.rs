@@ -3,67 +3,126 @@
 use glam::DVec3;
 
 use super::error::SceneError;
-use super::field::{Field, Fields};
-use super::file::{Form, one_form};
-use super::{Angles, Attitude, Camera};
-
-const ANGLES: [&str; 3] = ["heading", "pitch", "roll"];
-const DIRECTIONS: [&str; 2] = ["forward", "up"];
+use super::field::Fields;
+use super::form::{Form, one_form};
+use super::kind::{Key, Kind};
+use super::table::{Table, keys_of_other_form, table};
+use super::writer::Writer;
 
 /// Sine of the angle between forward and up below which they say nothing about roll.
 const PARALLEL: f64 = 1e-9;
 
-pub(super) fn read(table: &Fields<'_>) -> Result<Camera, SceneError> {
-    Ok(Camera {
-        position: table.read("position", DVec3::new(300.0, 30.0, 330.0), Field::position)?,
-        offset: table.read("offset", DVec3::ZERO, Field::position)?,
-        attitude: attitude(table)?,
-    })
+table! {
+    /// The craft: position `r_0`, offset `h` of the centre of projection, attitude.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Camera {
+        /// Where the craft is, `r_0` in the ground frame.
+        position: DVec3 = DVec3::new(300.0, 30.0, 330.0), Kind::Position;
+        /// The eye in the craft, `h`: forward, up and to the right.
+        offset: DVec3 = DVec3::ZERO, Kind::Position;
+        /// Orientation of the craft.
+        attitude: Attitude = Attitude::default();
+    }
 }
 
-/// Angles of a table in degrees, in radians; what is not given is as in `default`.
-pub(super) fn angles(table: &Fields<'_>, default: Angles) -> Result<Angles, SceneError> {
-    Ok(Angles {
-        heading: table.read("heading", default.heading, Field::angle)?,
-        pitch: table.read("pitch", default.pitch, Field::angle)?,
-        roll: table.read("roll", default.roll, Field::angle)?,
-    })
+/// Orientation of the craft, by angles or by directions.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Attitude {
+    /// `A = R_Y(heading) R_Z(pitch) R_X(roll)`.
+    Angles(Angles),
+    /// Forward direction and a hint of up; neither needs unit length, they are not parallel.
+    Directions {
+        /// Direction of u in the ground frame.
+        forward: DVec3,
+        /// v lies in the plane of `forward` and `up`, on the side of `up`.
+        up: DVec3,
+    },
 }
 
-fn attitude(table: &Fields<'_>) -> Result<Attitude, SceneError> {
-    let default =
-        Angles { heading: 126.87_f64.to_radians(), pitch: (-12.0_f64).to_radians(), roll: 0.0 };
-    let remedy = "keep either forward and up, or heading, pitch and roll";
-    match one_form(table, &ANGLES, &DIRECTIONS, remedy)? {
-        Form::Second => {
-            let (forward, up) = directions(table)?;
-            Ok(Attitude::Directions { forward, up })
+table! {
+    /// Heading, pitch and roll in radians.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Angles {
+        /// About Y; 0 looks along +x (east), 90 degrees along -z (north).
+        heading: f64 = 0.0, Kind::Turn;
+        /// Nose up positive.
+        pitch: f64 = 0.0, Kind::Turn;
+        /// Right wing down positive.
+        roll: f64 = 0.0, Kind::Turn;
+    }
+}
+
+table! {
+    struct Directions {
+        /// Where the craft looks, in place of the three angles.
+        forward: DVec3 = DVec3::X, Kind::Direction;
+        /// A direction above the craft; [0, 1, 0] where it is left out.
+        up: DVec3 = DVec3::Y, Kind::Direction;
+    }
+}
+
+impl Directions {
+    /// Reads directions that are complete and not parallel.
+    fn checked(fields: &Fields<'_>) -> Result<Self, SceneError> {
+        let directions: Self = Table::read(fields, Self::default())?;
+        let Some(field) = fields.get("forward") else {
+            let reason = "`up` alone does not say where the craft looks";
+            let remedy = "give camera.forward as well, or use heading, pitch and roll";
+            return Err(match fields.get("up") {
+                Some(field) => field.error(reason, remedy),
+                None => fields.error("forward", reason, remedy),
+            });
+        };
+        let Self { forward, up } = directions;
+        if forward.normalize().cross(up.normalize()).length() < PARALLEL {
+            let remedy = "give another camera.up, for example [1, 0, 0], or turn forward a little";
+            return Err(field.error("it is parallel to `up`, which leaves roll undefined", remedy));
+        }
+        Ok(directions)
+    }
+}
+
+impl Default for Attitude {
+    fn default() -> Self {
+        Self::Angles(Angles {
+            heading: 126.87_f64.to_radians(),
+            pitch: (-12.0_f64).to_radians(),
+            roll: 0.0,
+        })
+    }
+}
+
+impl Table for Attitude {
+    fn keys(default: &Self) -> Vec<Key> {
+        [Angles::keys(&default.angles()), keys_of_other_form::<Directions>()].concat()
+    }
+
+    fn read(fields: &Fields<'_>, default: Self) -> Result<Self, SceneError> {
+        let form = one_form::<Angles, Directions>(fields)?;
+        if form != Form::Second && fields.get("forward").is_none() {
+            return Table::read(fields, default.angles()).map(Self::Angles);
+        }
+        let Directions { forward, up } = Directions::checked(fields)?;
+        let directions = Self::Directions { forward, up };
+        if form == Form::Second {
+            return Ok(directions);
         }
         // An angle set over a scene that gives directions turns the craft from there.
-        Form::First if table.get("forward").is_some() => {
-            let (forward, up) = directions(table)?;
-            Ok(Attitude::Angles(angles(table, angles_of(forward, up))?))
-        }
-        Form::First | Form::Neither => Ok(Attitude::Angles(angles(table, default)?)),
+        Table::read(fields, directions.angles()).map(Self::Angles)
     }
-}
 
-fn directions(table: &Fields<'_>) -> Result<(DVec3, DVec3), SceneError> {
-    let up = table.read("up", DVec3::Y, Field::direction)?;
-    let Some(field) = table.get("forward") else {
-        let reason = "`up` alone does not say where the craft looks";
-        let remedy = "give camera.forward as well, or use heading, pitch and roll";
-        return Err(match table.get("up") {
-            Some(field) => field.error(reason, remedy),
-            None => table.error("forward", reason, remedy),
-        });
-    };
-    let forward = field.direction()?;
-    if forward.normalize().cross(up.normalize()).length() < PARALLEL {
-        let remedy = "give another camera.up, for example [1, 0, 0], or turn forward a little";
-        return Err(field.error("it is parallel to `up`, which leaves roll undefined", remedy));
+    fn write(&self, out: &mut Writer) {
+        match *self {
+            Self::Angles(angles) => {
+                Table::write(&angles, out);
+                out.aside(|out| Table::write(&Directions::default(), out));
+            }
+            Self::Directions { forward, up } => {
+                Table::write(&Directions { forward, up }, out);
+                out.aside(|out| Table::write(&self.angles(), out));
+            }
+        }
     }
-    Ok((forward, up))
 }
 
 impl Attitude {

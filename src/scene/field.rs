@@ -3,22 +3,20 @@
 use std::ops::RangeInclusive;
 
 use super::error::{Place, SceneError, list, nearest};
-use super::keys::{self, Keys};
-use super::tree::{Entry, Node, Origin, Value, shorten, shown};
+use super::maps::Maps;
+use super::shown::{shorten, shown};
+use super::tree::{Entry, Node, Origin, Value};
 
-/// Lengths and positions lie within this many scene units: beyond, `f64` itself gets coarse.
-pub(super) const FARTHEST: f64 = 1e9;
-
-/// A length or a direction below this is a slip, not a wish.
-pub(super) const SMALLEST: f64 = 1e-9;
-
-/// What messages need beside the values: names and texts of their origins.
+/// What is needed beside the values: names and texts of their origins, and where maps come from.
 pub(super) struct Context<'a> {
     /// The scene file as messages call it.
     pub(super) file: &'a str,
     pub(super) text: &'a str,
     /// Paths of the `--set` options.
     pub(super) options: Vec<String>,
+    pub(super) maps: Maps<'a>,
+    /// Paths of all keys of a scene: one that is unknown here may belong elsewhere.
+    pub(super) paths: fn() -> Vec<String>,
 }
 
 impl Context<'_> {
@@ -58,8 +56,12 @@ pub(super) struct Fields<'a> {
 impl<'a> Fields<'a> {
     /// The top level of a scene.
     pub(super) fn root(context: &'a Context<'a>, node: &'a Node) -> Result<Self, SceneError> {
-        let field = Field { context, path: String::new(), origin: node.origin, node };
-        field.table(&keys::SCENE)
+        Field { context, path: String::new(), origin: node.origin, node }.open()
+    }
+
+    /// Where the maps of the scene come from.
+    pub(super) fn maps(&self) -> Maps<'a> {
+        self.context.maps
     }
 
     pub(super) fn get(&self, key: &str) -> Option<Field<'a>> {
@@ -79,21 +81,6 @@ impl<'a> Fields<'a> {
             origin: entry.origin,
             node: &entry.node,
         }
-    }
-
-    /// The field's value, or the default where the scene has none.
-    pub(super) fn read<T>(
-        &self,
-        key: &str,
-        default: T,
-        read: impl FnOnce(&Field<'a>) -> Result<T, SceneError>,
-    ) -> Result<T, SceneError> {
-        self.get(key).map_or(Ok(default), |field| read(&field))
-    }
-
-    /// The table under a key; a missing one has no fields.
-    pub(super) fn table(&self, key: &str, known: &Keys) -> Result<Self, SceneError> {
-        self.get(key).map_or_else(|| Ok(self.empty(key)), |field| field.table(known))
     }
 
     /// A table of which nothing is given.
@@ -119,17 +106,19 @@ impl<'a> Fields<'a> {
     /// Fails at the first key that is not `known`, unless `allow` lets it pass.
     pub(super) fn check_keys(
         &self,
-        known: &Keys,
+        known: &[&str],
         allow: impl Fn(&Entry) -> bool,
     ) -> Result<(), SceneError> {
-        let unknown = self.entries.iter().find(|entry| !known.has(&entry.key) && !allow(entry));
-        let Some(entry) = unknown else { return Ok(()) };
+        let stray = |entry: &&Entry| !known.contains(&entry.key.as_str()) && !allow(entry);
+        let Some(entry) = self.entries.iter().find(stray) else { return Ok(()) };
         let key = entry.key.as_str();
         let path = join(&self.path, key);
-        let guess = keys::elsewhere(key)
-            .filter(|found| *found != path)
-            .or_else(|| nearest(key, known.keys.iter().copied()).map(|key| join(&self.path, key)));
-        let all = list(known.keys.iter().copied());
+        let elsewhere = (self.context.paths)()
+            .into_iter()
+            .find(|found| found.rsplit('.').next() == Some(key) && *found != path);
+        let guess = elsewhere
+            .or_else(|| nearest(key, known.iter().copied()).map(|key| join(&self.path, key)));
+        let all = list(known.iter().copied());
         let remedy = match guess {
             Some(guess) => format!("did you mean `{guess}`? Known keys here: {all}"),
             None => format!("known keys here: {all}"),
@@ -171,64 +160,32 @@ impl<'a> Field<'a> {
         self.error(format!("found {}", self.node.describe()), format!("give {expected}"))
     }
 
-    /// A finite number that passes the test; `expected` says which, for the message.
-    pub(super) fn number(
-        &self,
-        expected: &str,
-        test: impl Fn(f64) -> bool,
-    ) -> Result<f64, SceneError> {
-        let value = self.finite(expected)?;
-        if test(value) { Ok(value) } else { Err(self.expected(expected)) }
-    }
-
+    /// A finite number; `expected` says which, for the message.
     pub(super) fn finite(&self, expected: &str) -> Result<f64, SceneError> {
         match &self.node.value {
             Value::Integer(value) => Ok(*value as f64),
             Value::Float(value) if value.is_finite() => Ok(*value),
-            Value::Float(value) => Err(self.error(
-                format!("{} is not a finite number", shown(*value)),
-                format!("give {expected}"),
-            )),
+            Value::Float(value) => Err(self.not_finite(*value, expected)),
             _ => Err(self.expected(expected)),
         }
     }
 
-    /// A length above 0.
-    pub(super) fn length(&self) -> Result<f64, SceneError> {
-        self.number("a number above 0 (from 1e-9 to 1e9)", is_length)
-    }
-
-    /// An angle in degrees, of any size, in radians.
-    pub(super) fn angle(&self) -> Result<f64, SceneError> {
-        // The remainder of integers and of f64 is exact, so whole turns change nothing.
-        let degrees = match self.node.value {
-            Value::Integer(value) => (value % 360) as f64,
-            _ => self.finite("an angle in degrees")? % 360.0,
-        };
-        Ok(degrees.to_radians())
+    fn not_finite(&self, value: f64, expected: &str) -> SceneError {
+        let reason = format!("{} is not a finite number", shown(value));
+        self.error(reason, format!("give {expected}"))
     }
 
     /// A whole number in a range.
-    pub(super) fn integer(&self, range: RangeInclusive<i64>) -> Result<i64, SceneError> {
-        let expected = if *range.end() == i64::MAX {
-            format!("a whole number from {}", range.start())
-        } else {
-            format!("a whole number from {} to {}", range.start(), range.end())
-        };
+    pub(super) fn integer(
+        &self,
+        expected: &str,
+        range: &RangeInclusive<i64>,
+    ) -> Result<i64, SceneError> {
         match self.node.value {
             Value::Integer(value) if range.contains(&value) => Ok(value),
-            Value::Float(value) if !value.is_finite() => Err(self.error(
-                format!("{} is not a finite number", shown(value)),
-                format!("give {expected}"),
-            )),
-            _ => Err(self.expected(&expected)),
+            Value::Float(value) if !value.is_finite() => Err(self.not_finite(value, expected)),
+            _ => Err(self.expected(expected)),
         }
-    }
-
-    /// As [`Field::integer`].
-    pub(super) fn count(&self, range: RangeInclusive<u32>) -> Result<u32, SceneError> {
-        let wide = i64::from(*range.start())..=i64::from(*range.end());
-        self.integer(wide).map(|value| value as u32)
     }
 
     /// A text.
@@ -239,32 +196,36 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Whether the value is a text.
-    pub(super) fn is_text(&self) -> bool {
-        matches!(self.node.value, Value::String(_))
-    }
-
-    /// One of a few words.
-    pub(super) fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T, SceneError> {
-        let names = || choices.iter().map(|(name, _)| *name);
-        let quoted: Vec<String> = names().map(|name| format!("\"{name}\"")).collect();
-        let all = format!("one of {}", list(quoted.iter().map(String::as_str)));
-        let text = self.text(&all)?;
-        if let Some((_, value)) = choices.iter().find(|(name, _)| *name == text) {
-            return Ok(*value);
-        }
-        let remedy = match nearest(text, names()) {
-            Some(guess) => format!("did you mean \"{guess}\"? Give {all}"),
-            None => format!("give {all}"),
+    /// The elements of an array.
+    pub(super) fn elements(&self, expected: &str) -> Result<Vec<Self>, SceneError> {
+        let Value::Array(nodes) = &self.node.value else {
+            return Err(self.expected(expected));
         };
-        Err(self.error(format!("found {}", self.node.describe()), remedy))
+        let element = |(index, node): (usize, &'a Node)| Field {
+            context: self.context,
+            path: format!("{}.{index}", self.path),
+            origin: node.origin,
+            node,
+        };
+        Ok(nodes.iter().enumerate().map(element).collect())
     }
 
-    /// The value as a table without unknown keys.
-    pub(super) fn table(&self, known: &Keys) -> Result<Fields<'a>, SceneError> {
-        let fields = self.open()?;
-        fields.check_keys(known, |_| false)?;
-        Ok(fields)
+    /// The tables of an array of tables. A lone one is called without its index.
+    pub(super) fn tables(&self) -> Result<Vec<Self>, SceneError> {
+        let expected = format!("tables, each under a line [[{}]]", self.path);
+        let mut tables = self.elements(&expected)?;
+        match tables.as_mut_slice() {
+            [] => return Err(self.expected(&expected)),
+            [lone] => lone.path.clone_from(&self.path),
+            _ => {}
+        }
+        Ok(tables)
+    }
+
+    /// The same value under another name: messages call an element of a vector by the vector, that
+    /// is the field, its element is the place.
+    pub(super) fn called(&self, path: &str) -> Self {
+        Self { path: path.to_owned(), ..self.clone() }
     }
 
     /// The value as a table with keys of any name.
@@ -279,10 +240,6 @@ impl<'a> Field<'a> {
             entries,
         })
     }
-}
-
-pub(super) fn is_length(value: f64) -> bool {
-    (SMALLEST..=FARTHEST).contains(&value)
 }
 
 /// The path of a key, safe to show on one line.

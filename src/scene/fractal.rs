@@ -9,7 +9,7 @@
 
 use rayon::prelude::*;
 
-use super::HeightMap;
+use super::height_map::HeightMap;
 
 /// Hurst exponent H of the detail; that of eroded hills is 0.8 to 0.9.
 const HURST: f64 = 0.85;

@@ -4,7 +4,38 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::{HeightMap, NoData};
+use super::error::SceneError;
+use super::field::Field;
+use super::height_map::HeightMap;
+use super::kind::Kind;
+use super::value::{Value, quoted, word_or};
+
+/// What nodes without data become.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoData {
+    /// Cells that touch one are holes.
+    Hole,
+    /// The sample of the nearest node with data.
+    Nearest,
+    /// This sample, in the unit of the map.
+    Sample(f64),
+}
+
+const WORDS: [(&str, NoData); 2] = [("hole", NoData::Hole), ("nearest", NoData::Nearest)];
+
+impl Value for NoData {
+    fn read(field: &Field<'_>, kind: &Kind) -> Result<Self, SceneError> {
+        word_or(field, kind, &WORDS, Self::Sample)
+    }
+
+    fn write(&self, _: &Kind) -> String {
+        match self {
+            Self::Hole => quoted("hole"),
+            Self::Nearest => quoted("nearest"),
+            Self::Sample(sample) => format!("{sample:?}"),
+        }
+    }
+}
 
 /// The map under a rule: nodes without data are left where the rule makes holes of them, and have
 /// a sample elsewhere.

@@ -14,7 +14,8 @@
 use toml::de::DeValue;
 
 use super::error::SceneError;
-use super::tree::{Entry, Node, Origin, Value, shorten};
+use super::shown::shorten;
+use super::tree::{Entry, Node, Origin, Value};
 
 /// No key of a scene lies deeper.
 const DEEPEST: usize = 8;

@@ -3,6 +3,8 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::shown::{shorten, shown};
+
 /// Where a value comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
@@ -109,20 +111,4 @@ impl Value {
         entries.sort_by_key(|(start, _)| *start);
         Self::Table(entries.into_iter().map(|(_, entry)| entry).collect())
     }
-}
-
-/// A number as the user would write it, a point included.
-pub(super) fn shown(value: f64) -> String {
-    if value.is_finite() && value != 0.0 && !(1e-4..1e7).contains(&value.abs()) {
-        format!("{value:e}")
-    } else {
-        format!("{value:?}").to_lowercase()
-    }
-}
-
-/// The head of a text, safe to show on one line.
-pub(crate) fn shorten(text: &str) -> String {
-    const LONGEST: usize = 60;
-    let head: String = text.chars().take(LONGEST).flat_map(char::escape_debug).collect();
-    if text.chars().nth(LONGEST).is_some() { head + "..." } else { head }
 }

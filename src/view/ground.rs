@@ -54,7 +54,7 @@ pub fn height(scene: &Scene, at: DVec3) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::builtin;
+    use crate::scene::load;
 
     #[test]
     fn a_part_of_the_map_has_the_height_of_the_whole() {
@@ -65,7 +65,7 @@ mod tests {
                     format!("surface.outside={outside}"),
                     "surface.cell=[1.0, 2.5]".to_owned(),
                 ];
-                let scene = builtin::load(Some("valley"), &sets).unwrap();
+                let scene = load(Some("valley"), &sets).unwrap();
                 let oracle = Oracle::new(&scene, &scene.screens[0]);
                 for (x, z) in
                     [(0.0, 0.0), (0.3, 857.4), (171.7, 400.2), (342.9, 1.0), (-5.5, 900.0)]

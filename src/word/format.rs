@@ -61,7 +61,7 @@ impl Overflow {
     pub const ALL: [Self; 2] = [Self::Wrap, Self::Saturate];
 
     /// Name in scene files, options and headers of test vectors.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Wrap => "wrap",
             Self::Saturate => "saturate",
@@ -80,7 +80,7 @@ impl Rounding {
         [Self::Floor, Self::TowardZero, Self::Nearest, Self::NearestEven, Self::Stochastic];
 
     /// Name in scene files, options and headers of test vectors.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Floor => "floor",
             Self::TowardZero => "toward_zero",

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use terraline::scene::height_map::source::HeightFile;
+use terraline::scene::HeightFile;
 use tiff::decoder::{Decoder, DecodingResult};
 
 use super::tiff_file::{Form, Kind, LONG, Layout, SHORT, TiffFile};

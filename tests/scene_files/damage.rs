@@ -3,41 +3,12 @@
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
+use super::support::keys::{numbers_in, scale_number};
 use super::wild::{edge, number, numbers};
 
 /// Texts that mean something in a scene file.
-const TOKENS: [&str; 30] = [
-    "\n",
-    "=",
-    ".",
-    ",",
-    "[",
-    "]",
-    "[[",
-    "]]",
-    "{",
-    "}",
-    "\"",
-    "'",
-    "#",
-    "\\",
-    "\"\"\"",
-    "-",
-    "e9",
-    "e-9",
-    "0",
-    "9",
-    "nan",
-    "\u{feff}",
-    "\u{0}",
-    "\u{85}",
-    "ü",
-    "[camera]\n",
-    "[[screen]]\n",
-    "[[surface]]\n",
-    "[format]\n",
-    "\nkind = \"plane\"\n",
-];
+const TOKENS: &str = "= . , [ ] [[ ]] { } \" ' # \\ \"\"\" - e9 e-9 0 9 nan \u{feff} \u{0} \u{85} ü \
+                      [camera]\n [[screen]]\n [[surface]]\n [format]\n \nkind=\"plane\"\n";
 
 /// One change of a text.
 #[derive(Clone, Debug)]
@@ -61,7 +32,7 @@ pub enum Damage {
 /// Damage to any text.
 pub fn damages() -> BoxedStrategy<Damage> {
     let any_index = any::<Index>;
-    let token = prop_oneof![3 => select(TOKENS.to_vec()).prop_map(str::to_owned), 1 => edge(), 1 => "\\PC{0,3}"];
+    let token = prop_oneof![3 => select(TOKENS.split(' ').collect::<Vec<_>>()).prop_map(str::to_owned), 1 => edge(), 1 => "\\PC{0,3}"];
     let sound = prop_oneof![number(-20.0..400.0), number(0.0..4.0)];
     let factor = prop_oneof![
         Just(-1.0),
@@ -113,7 +84,13 @@ impl Damage {
                     *line = format!("{key} = {value}");
                 }
             }
-            Self::Number(..) | Self::Scale(..) => return self.to_a_number(text),
+            Self::Scale(at, factor) => return scale_number(text, at.index(1 << 16), *factor),
+            Self::Number(at, new) => {
+                let numbers = numbers_in(text);
+                if let Some(place) = numbers.get(at.index(numbers.len().max(1))) {
+                    return format!("{}{new}{}", &text[..place.start], &text[place.end..]);
+                }
+            }
             Self::Drop(at) => drop(lines.remove(at.index(lines.len()))),
             Self::Repeat(from, to) => {
                 let line = lines[from.index(lines.len())].clone();
@@ -126,43 +103,4 @@ impl Damage {
         }
         lines.join("\n")
     }
-
-    fn to_a_number(&self, text: &str) -> String {
-        let numbers = numbers_in(text);
-        let (Self::Number(at, _) | Self::Scale(at, _)) = self else { return text.to_owned() };
-        if numbers.is_empty() {
-            return text.to_owned();
-        }
-        let place = numbers[at.index(numbers.len())].clone();
-        let old = &text[place.clone()];
-        let new = match self {
-            Self::Number(_, new) => new.clone(),
-            Self::Scale(_, factor) => match (old.parse::<i64>(), old.parse::<f64>()) {
-                (Ok(whole), _) => format!("{}", (whole as f64 * factor) as i64),
-                (_, Ok(number)) => format!("{:?}", number * factor),
-                _ => old.to_owned(),
-            },
-            _ => old.to_owned(),
-        };
-        format!("{}{new}{}", &text[..place.start], &text[place.end..])
-    }
-}
-
-/// Where the numbers of a text are, but for those in comments and names.
-fn numbers_in(text: &str) -> Vec<std::ops::Range<usize>> {
-    let mut numbers: Vec<std::ops::Range<usize>> = Vec::new();
-    let (mut before, mut comment) = ('\n', false);
-    for (at, c) in text.char_indices() {
-        comment = c == '#' || (comment && c != '\n');
-        let inside = numbers.last().is_some_and(|number| number.end == at);
-        if !comment && inside && (c.is_ascii_digit() || "_.e-".contains(c)) {
-            if let Some(number) = numbers.last_mut() {
-                number.end = at + 1;
-            }
-        } else if !comment && (c.is_ascii_digit() || c == '-') && " [".contains(before) {
-            numbers.push(at..at + 1);
-        }
-        before = c;
-    }
-    numbers
 }

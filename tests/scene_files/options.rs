@@ -5,7 +5,7 @@ use terraline::scene::{
     Angles, Attitude, Extent, Halvings, NoData, Outside, Scene, SceneError, Surface, load,
 };
 
-use super::{EVERY_KEY, angles, assert_says, scene, terrain, try_scene};
+use super::{EVERY_TABLE, angles, assert_says, scene, terrain, try_scene};
 
 fn set_over(name: &str, sets: &[&str]) -> Result<Scene, SceneError> {
     let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
@@ -31,7 +31,7 @@ fn options_override_the_file() {
         "seed=3",
         "seed=4",
     ];
-    let scene = scene(EVERY_KEY, &sets);
+    let scene = scene(EVERY_TABLE, &sets);
     assert_eq!(scene.camera.position, DVec3::new(1.0, 2.0, 3.0));
     assert_eq!(angles(&scene).heading, 10.0_f64.to_radians());
     assert_eq!(angles(&scene).pitch, 5.5_f64.to_radians());
@@ -104,7 +104,7 @@ fn wrong_options_are_named() {
         ("camera.heading=", &["in --set camera.heading: found the text \"\""]),
         ("camera.heading=1\nunit_m=3", &["in --set camera.heading: found the text"]),
     ] {
-        let error = try_scene(EVERY_KEY, &[set]).map(|_| ()).expect_err(set);
+        let error = try_scene(EVERY_TABLE, &[set]).map(|_| ()).expect_err(set);
         assert_says(&error, words);
     }
     let sets = ["camera.forward=[1,0,0]", "camera.heading=3"];

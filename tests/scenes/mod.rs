@@ -7,9 +7,8 @@ use glam::{DVec2, DVec3};
 use terraline::engine::Memories;
 use terraline::plan::Plan;
 use terraline::scene::{
-    Angles, Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, Hardware, HeightMap,
-    Kernel, KernelShape, Light, NoData, Outside, Plane, RatioForm, Scene, Screen, Stepper,
-    StepperMode, Surface, Terrain, WordSize,
+    Attitude, Camera, Colors, Deformation, Encoding, Extent, Hardware, HeightMap, Kernel,
+    KernelShape, Light, NoData, Outside, Plane, Scene, Screen, Surface, Terrain, WordSize,
 };
 use terraline::setup::{Back, Setup, TerrainUnits};
 use terraline::unit::interpolator::Interpolator;
@@ -60,41 +59,22 @@ pub fn scene(surface: Surface, eye: DVec3, words: WordSize) -> Scene {
     Scene {
         name: "by hand".into(),
         unit_m: 1.0,
-        seed: 1,
         camera: Camera {
             position: eye,
-            offset: DVec3::ZERO,
             attitude: Attitude::Directions { forward: DVec3::new(1.0, -1.0, 0.5), up: DVec3::Y },
+            ..Camera::default()
         },
         screens: vec![Screen {
-            name: "front".into(),
             columns: 16,
             lines: 12,
             extent: Extent::FieldOfView(1.0),
-            center: DVec2::ZERO,
-            mount: Angles::default(),
+            ..Screen::default()
         }],
-        surface,
-        kernel: Kernel {
-            shape: KernelShape::Cosine,
-            deformation: Deformation::Blend { weight_shift: 2 },
-            table: 1024,
-        },
-        stepper: Stepper {
-            mode: StepperMode::Skipping,
-            fineness: 3,
-            halvings: Halvings::Footprint,
-        },
+        kernel: Kernel { table: 1024, ..Kernel::default() },
         light: Light { direction: DVec3::Y, ambient: 0.3 },
-        color: Colors {
-            ramp: vec![[0, 0, 255], [255, 0, 0]],
-            sky: [1, 2, 3],
-            far: [4, 5, 6],
-            side: [7, 8, 9],
-            checker: [[200, 200, 190], [70, 90, 70]],
-        },
-        machine: Hardware { clock_mhz: 100.0, memory_latency: 2, words, ratio: RatioForm::Array },
-        formats: vec![],
+        color: Colors { sky: [1, 2, 3], far: [4, 5, 6], side: [7, 8, 9], ..Colors::default() },
+        machine: Hardware { words, ..Hardware::default() },
+        ..Scene::of(surface)
     }
 }
 

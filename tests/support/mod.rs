@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 pub mod formats;
+pub mod keys;
 pub mod recipe;
 
 use std::sync::Arc;
@@ -14,9 +15,8 @@ use terraline::frame::{Entry, Frame, Giver, Hit};
 use terraline::oracle::Oracle;
 use terraline::plan::{Plan, PlanError};
 use terraline::scene::{
-    Attitude, Camera, Colors, Deformation, Encoding, Extent, Halvings, Hardware, HeightMap, Kernel,
-    KernelShape, Light, NoData, Outside, RatioForm, Scene, Screen, Stepper, StepperMode, Surface,
-    Terrain, WordSize, load,
+    Attitude, Camera, Colors, Encoding, HeightMap, KernelShape, NoData, Outside, Scene, Screen,
+    Surface, Terrain, load,
 };
 use terraline::setup::SetupError;
 use terraline::word::Complete;
@@ -42,62 +42,31 @@ pub fn builtin(name: &str, columns: u32, lines: u32) -> Scene {
 pub fn over(map: HeightMap, columns: u32, lines: u32) -> Scene {
     let (width, depth) = ((map.columns() - 1) as f64, (map.rows() - 1) as f64);
     let highest = f64::from(map.range().1);
+    let surface = Surface::Terrain(Terrain {
+        source: "hand".into(),
+        map: Arc::new(map),
+        encoding: Encoding::Stored,
+        cell: DVec2::ONE,
+        offset: 0.0,
+        scale: 1.0,
+        outside: Outside::Sky,
+        nodata: NoData::Hole,
+        base_depth: None,
+    });
     Scene {
         name: "hand".into(),
         unit_m: 1.0,
-        seed: 1,
         camera: Camera {
             position: DVec3::new(width / 2.0, highest + 0.6 * width.max(depth), -depth / 4.0),
-            offset: DVec3::ZERO,
             attitude: Attitude::Directions {
                 forward: DVec3::new(0.0, -1.0, 1.0),
                 up: DVec3::new(0.0, 1.0, 0.0),
             },
+            ..Camera::default()
         },
-        screens: vec![Screen {
-            name: "front".into(),
-            columns,
-            lines,
-            extent: Extent::FieldOfView(60_f64.to_radians()),
-            center: DVec2::ZERO,
-            mount: Default::default(),
-        }],
-        surface: Surface::Terrain(Terrain {
-            source: "hand".into(),
-            map: Arc::new(map),
-            encoding: Encoding::Stored,
-            cell: DVec2::ONE,
-            offset: 0.0,
-            scale: 1.0,
-            outside: Outside::Sky,
-            nodata: NoData::Hole,
-            base_depth: None,
-        }),
-        kernel: Kernel {
-            shape: KernelShape::Cosine,
-            deformation: Deformation::Blend { weight_shift: 2 },
-            table: 4096,
-        },
-        stepper: Stepper {
-            mode: StepperMode::Skipping,
-            fineness: 3,
-            halvings: Halvings::Footprint,
-        },
-        light: Light { direction: DVec3::new(-1.0, 1.5, -1.0).normalize(), ambient: 0.3 },
-        color: Colors {
-            ramp: vec![[0, 0, 255], [255, 0, 0]],
-            sky: [160, 190, 220],
-            far: [1, 2, 3],
-            side: [96, 82, 64],
-            checker: [[200, 200, 190], [70, 90, 70]],
-        },
-        machine: Hardware {
-            clock_mhz: 100.0,
-            memory_latency: 2,
-            words: WordSize::Auto,
-            ratio: RatioForm::Array,
-        },
-        formats: Vec::new(),
+        screens: vec![Screen { columns, lines, ..Screen::default() }],
+        color: Colors { far: [1, 2, 3], ..Colors::default() },
+        ..Scene::of(surface)
     }
 }
 
@@ -113,6 +82,15 @@ pub fn terrain(scene: &mut Scene) -> &mut Terrain {
         Surface::Terrain(terrain) => terrain,
         Surface::Plane(_) => panic!("a scene with a terrain"),
     }
+}
+
+/// All of a scene but the samples of its map, in every bit.
+pub fn described(scene: &Scene) -> String {
+    let mut scene = scene.clone();
+    if let Surface::Terrain(terrain) = &mut scene.surface {
+        terrain.map = Arc::new(HeightMap::new(1, 1, vec![0.0]));
+    }
+    format!("{:#?}", Scene { name: String::new(), ..scene })
 }
 
 /// The pruned plan of a scene's first screen, which must exist.

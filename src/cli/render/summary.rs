@@ -76,7 +76,7 @@ impl Render {
     /// Measures a drawn frame.
     pub(super) fn summarise(&self, planned: &Planned, drawn: &Drawn<'_>) -> Result<Summary, Stop> {
         let machine = &drawn.machine;
-        let Planned { scene, plan, world, invocation, overlook, .. } = planned;
+        let Planned { scene, plan, world, invocation, framing, .. } = planned;
         let count = |hit| drawn.band.frame.hit.iter().filter(|h| **h == hit).count();
         let mut times: Vec<f64> = drawn.times.iter().map(|t| t.as_secs_f64() * 1e3).collect();
         times.sort_by(f64::total_cmp);
@@ -151,7 +151,7 @@ impl Render {
                 .collect(),
             errors,
             worst,
-            chosen: overlook.as_ref().map_or_else(Vec::new, |overlook| overlook.chosen.clone()),
+            chosen: framing.as_ref().map_or_else(Vec::new, |framing| framing.chosen.clone()),
         })
     }
 
@@ -239,7 +239,7 @@ impl Render {
                 worst.explain
             ));
         }
-        for chosen in planned.overlook.iter().flat_map(|overlook| &overlook.chosen) {
+        for chosen in planned.framing.iter().flat_map(|framing| &framing.chosen) {
             out.push(format!("  chosen    {chosen}"));
         }
         for (_, path) in self.outputs() {

@@ -13,9 +13,8 @@ use glam::{DVec2, DVec3};
 
 use super::Oracle;
 use crate::scene::{
-    Attitude, Camera, Colors, Deformation, Extent, Halvings, Hardware, HeightMap, Kernel,
-    KernelShape, Light, Outside, RatioForm, Scene, Screen, Stepper, StepperMode, Surface, Terrain,
-    WordSize,
+    Attitude, Camera, Colors, Deformation, Extent, HeightMap, Kernel, KernelShape, Outside, Scene,
+    Screen, Surface, Terrain,
 };
 
 /// Every shape.
@@ -86,44 +85,26 @@ pub(super) fn terrain(map: HeightMap, outside: Outside) -> Terrain {
 
 pub(super) fn scene(surface: Surface, kernel: Kernel, eye: DVec3, forward: DVec3) -> Scene {
     Scene {
-        name: "test".into(),
         unit_m: 1.0,
-        seed: 1,
         camera: Camera {
             position: eye,
-            offset: DVec3::ZERO,
             attitude: Attitude::Directions { forward, up: DVec3::Y },
+            ..Camera::default()
         },
         screens: vec![Screen {
-            name: "front".into(),
             columns: 64,
             lines: 48,
             extent: Extent::FieldOfView(1.0),
-            center: DVec2::ZERO,
-            mount: crate::scene::Angles::default(),
+            ..Screen::default()
         }],
-        surface,
         kernel,
-        stepper: Stepper {
-            mode: StepperMode::Skipping,
-            fineness: 3,
-            halvings: Halvings::Footprint,
-        },
-        light: Light { direction: DVec3::new(-1.0, 1.5, -1.0).normalize(), ambient: 0.3 },
         color: Colors {
-            ramp: vec![[0, 0, 255], [255, 0, 0]],
-            sky: [160, 190, 220],
             far: [200, 210, 220],
             side: [90, 70, 50],
             checker: [[240, 240, 240], [40, 40, 40]],
+            ..Colors::default()
         },
-        machine: Hardware {
-            clock_mhz: 100.0,
-            memory_latency: 2,
-            words: WordSize::Auto,
-            ratio: RatioForm::Array,
-        },
-        formats: Vec::new(),
+        ..Scene::of(surface)
     }
 }
 

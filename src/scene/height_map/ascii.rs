@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use super::georeference::PixelIs;
-use super::source::{Found, HeightFile, Storage};
-use super::{Georeference, MapError, check_size};
-use crate::scene::tree::shown;
+use super::error::{MapError, check_size};
+use super::found::{Found, HeightFile, Storage};
+use super::georeference::{Georeference, PixelIs};
+use crate::scene::shown::shown;
 
 /// What marks a node without data where the header does not say.
 const DEFAULT_NODATA: f64 = -9999.0;

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::scene::tree::shown;
+use crate::scene::shown::shown;
 
 /// Semi-major axis of the WGS84 ellipsoid in metres.
 const SEMI_MAJOR_M: f64 = 6_378_137.0;

@@ -11,9 +11,9 @@ mod keys;
 mod samples;
 mod unpack;
 
-use super::source::{Found, HeightFile, Storage};
-use super::{MapError, one_line};
-use crate::scene::tree::shown;
+use super::error::MapError;
+use super::found::{Found, HeightFile, Storage};
+use crate::scene::shown::{one_line, shown};
 use directory::{Directory, Tiff, tag};
 use image::Image;
 

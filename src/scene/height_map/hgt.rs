@@ -6,9 +6,10 @@ use std::io::{Cursor, Read};
 use glam::DVec2;
 use zip::ZipArchive;
 
-use super::georeference::{Coordinates, PixelIs};
-use super::source::{Found, HeightFile, Storage};
-use super::{DEFLATE_RATIO, Georeference, MAX_NODES, MapError, check_size, one_line};
+use super::error::{DEFLATE_RATIO, MAX_NODES, MapError, check_size};
+use super::found::{Found, HeightFile, Storage};
+use super::georeference::{Coordinates, Georeference, PixelIs};
+use crate::scene::shown::one_line;
 
 /// What marks a node without data.
 const VOID: i16 = i16::MIN;

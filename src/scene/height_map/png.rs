@@ -6,8 +6,10 @@ use image::codecs::png::PngDecoder;
 use image::error::ImageError;
 use image::{ColorType, ImageDecoder, Limits};
 
-use super::source::{Encoding, Found, HeightFile, Storage};
-use super::{DEFLATE_RATIO, Georeference, MAX_SIDE, MapError, check_size, one_line, too_large};
+use super::error::{DEFLATE_RATIO, MAX_SIDE, MapError, check_size, too_large};
+use super::found::{Encoding, Found, HeightFile, Storage};
+use super::georeference::Georeference;
+use crate::scene::shown::one_line;
 
 /// What the decoder may allocate beside the samples: a few rows, text and profiles.
 const DECODER_BYTES: u64 = 64 << 20;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::super::{DEFLATE_RATIO, MAX_SIDE, MapError, check_size};
+use super::super::error::{DEFLATE_RATIO, MAX_SIDE, MapError, check_size};
 use super::directory::{Directory, Tiff, tag};
 
 /// Type of a sample.

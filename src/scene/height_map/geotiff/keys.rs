@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::super::MapError;
+use super::super::error::MapError;
 use super::super::georeference::{Coordinates, Georeference, PixelIs};
 use super::directory::{Directory, Tiff, tag};
 use super::image::Image;

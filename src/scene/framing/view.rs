@@ -2,8 +2,16 @@
 
 use glam::{DVec2, DVec3};
 
-use super::super::height_map::Georeference;
-use super::{HeightMap, cells, ramp};
+use super::ramp;
+use crate::scene::camera::{Angles, Attitude, Camera};
+use crate::scene::height_map::{Georeference, HeightMap};
+use crate::scene::light::{Colors, Light};
+use crate::scene::maps::ReadMap;
+use crate::scene::nodata::NoData;
+use crate::scene::screen::{Extent, Screen};
+use crate::scene::surface::Surface;
+use crate::scene::tables::Scene;
+use crate::scene::terrain::{Outside, Terrain};
 
 /// Metres of a cell where nothing is known.
 const ASSUMED_CELL_M: f64 = 30.0;
@@ -27,13 +35,13 @@ const LOWERED: f64 = 0.2;
 const STEPS: [f64; 7] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0];
 
 /// Field of view across the width, in degrees.
-pub(super) const FIELD: f64 = 45.0;
+const FIELD: f64 = 45.0;
 
 /// Share of the screen that the map may fill.
 const FILLED: f64 = 0.94;
 
 /// Degrees down. With [`FIELD`], no ray of a screen that is wider than high looks up.
-pub(super) const PITCH: f64 = -35.0;
+const PITCH: f64 = -35.0;
 
 /// A sample beyond this is no height.
 const LARGEST: f64 = 1e9;
@@ -41,19 +49,18 @@ const LARGEST: f64 = 1e9;
 /// The choices for one map; lengths in scene units.
 #[derive(Clone, Debug)]
 pub(super) struct View {
-    pub(super) unit_m: f64,
-    pub(super) cell: DVec2,
-    /// The lowest sample.
-    pub(super) offset: f32,
+    unit_m: f64,
+    cell: DVec2,
+    /// The lowest sample, in its own decimals.
+    offset: f64,
     /// Scene units per unit of sample.
-    pub(super) scale: f64,
-    pub(super) exaggeration: f64,
-    pub(super) base_depth: f64,
-    pub(super) position: DVec3,
+    scale: f64,
+    base_depth: f64,
+    position: DVec3,
     /// In degrees.
-    pub(super) heading: f64,
-    pub(super) size: (u32, u32),
-    pub(super) ramp: Vec<[u8; 3]>,
+    heading: f64,
+    size: (u32, u32),
+    ramp: Vec<[u8; 3]>,
     /// What was chosen, a sentence each.
     pub(super) reasons: Vec<String>,
 }
@@ -120,9 +127,8 @@ impl View {
         Ok(Self {
             unit_m,
             cell,
-            offset: low,
+            offset: low.to_string().parse().unwrap_or(f64::from(low)),
             scale,
-            exaggeration,
             base_depth,
             position,
             heading,
@@ -131,6 +137,54 @@ impl View {
             reasons,
         })
     }
+
+    /// The scene that shows a map so.
+    pub(super) fn scene(&self, map: &ReadMap) -> Scene {
+        let terrain = Terrain {
+            source: map.source.clone(),
+            map: map.map.clone(),
+            encoding: map.encoding,
+            cell: self.cell,
+            offset: self.offset,
+            scale: self.scale,
+            outside: Outside::Sky,
+            nodata: NoData::Hole,
+            base_depth: Some(self.base_depth),
+        };
+        let angles = Angles {
+            heading: self.heading.to_radians(),
+            pitch: PITCH.to_radians(),
+            ..Angles::default()
+        };
+        Scene {
+            unit_m: self.unit_m,
+            camera: Camera {
+                position: self.position,
+                attitude: Attitude::Angles(angles),
+                ..Camera::default()
+            },
+            screens: vec![Screen {
+                columns: self.size.0,
+                lines: self.size.1,
+                extent: Extent::FieldOfView(FIELD.to_radians()),
+                ..Screen::default()
+            }],
+            light: Light { direction: DVec3::new(-1.0, 1.6, -0.3).normalize(), ambient: 0.35 },
+            color: Colors {
+                ramp: self.ramp.clone(),
+                sky: [186, 208, 230],
+                far: [186, 208, 230],
+                side: [104, 92, 78],
+                ..Colors::default()
+            },
+            ..Scene::of(Surface::Terrain(terrain))
+        }
+    }
+}
+
+/// Nodes of a map that make a scene's sides.
+fn cells(map: &HeightMap) -> (f64, f64) {
+    ((map.columns() - 1) as f64, (map.rows() - 1) as f64)
 }
 
 /// The vertical exaggeration for a relief given as a share of the map's longer side.

@@ -1,6 +1,6 @@
 //! Colours from the lowest node to the highest.
 
-use super::HeightMap;
+use crate::scene::height_map::HeightMap;
 
 /// Lowland, meadow, steppe, rock, scree, snow.
 const LAND: [[u8; 3]; 6] = [

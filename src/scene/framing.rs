@@ -1,21 +1,23 @@
 //! A scene for a height file that has none: the whole map from above one of its sides.
 //!
-//! The scene is written as TOML and read like any other, so what [`Overlook::file`] hands out draws
+//! The scene is written as TOML and read like any other, so what [`Framing::file`] hands out draws
 //! the same picture.
 
 mod ramp;
-mod text;
 mod view;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::error::SceneError;
 use super::file::{Document, parse_with};
-use super::height_map::shown_path;
 use super::height_map::source::{self, is_height_file};
-use super::set;
-use super::surface::ReadMap;
-use super::{Encoding, HeightFile, HeightMap, Scene, SceneError};
+use super::height_map::{Encoding, HeightFile};
+use super::maps::ReadMap;
+use super::shown::shown_path;
+use super::surface::Surface;
+use super::tables::Scene;
+use super::{set, write};
 use view::View;
 
 /// The raster of the screen where the user gives none.
@@ -23,15 +25,13 @@ const SIZE: (u32, u32) = (1280, 800);
 
 /// A height file with a scene that looks over it.
 #[derive(Clone, Debug)]
-pub struct Overlook {
+pub struct Framing {
     /// The scene, `--set` options applied.
     pub scene: Scene,
     /// What was chosen and assumed, a sentence each.
     pub chosen: Vec<String>,
-    path: PathBuf,
-    encoding: Encoding,
-    view: View,
-    sets: Vec<String>,
+    /// Where the paths in the scene start.
+    folder: PathBuf,
 }
 
 /// Whether a scene's name means a height file: by its ending, or else by what the file holds.
@@ -45,11 +45,7 @@ pub fn applies(name: &str) -> bool {
 ///
 /// # Errors
 /// If the file is no height map, its heights are too large for a scene, or an option does not fit.
-pub fn read(
-    path: &Path,
-    sets: &[String],
-    size: Option<(u32, u32)>,
-) -> Result<Overlook, SceneError> {
+pub fn read(path: &Path, sets: &[String], size: Option<(u32, u32)>) -> Result<Framing, SceneError> {
     let encoding = encoding(sets);
     let unreadable = |file: &Path, reason: String, remedy: String| SceneError::Unreadable {
         file: shown_path(file),
@@ -81,37 +77,45 @@ pub fn read(
         .map_err(|(reason, remedy)| unreadable(path, reason, remedy))?;
     notes.extend(view.reasons.iter().cloned());
     let known = ReadMap { source: name.to_owned(), encoding, map: Arc::new(map) };
-    let text = text::write(&view, name, encoding);
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let folder = path.parent().unwrap_or(Path::new(""));
     let document = Document {
         name: stem.as_deref().unwrap_or("map"),
         file: &format!("the scene chosen for {}", shown_path(path)),
-        folder: path.parent().unwrap_or(Path::new("")),
-        text: &text,
+        folder,
+        text: &write::toml(&view.scene(&known), name),
     };
     let scene = parse_with(&document, sets, Some(&known))?;
-    Ok(Overlook {
-        scene,
-        chosen: notes,
-        path: path.to_owned(),
-        encoding,
-        view,
-        sets: sets.to_vec(),
-    })
+    Ok(Framing { scene, chosen: notes, folder: folder.to_owned() })
 }
 
-impl Overlook {
+impl Framing {
     /// The scene as a file at `target`, with the options applied and the map's path relative to it.
     ///
     /// # Errors
-    /// If no path leads from there to the map, or an option cannot be written.
+    /// If no path leads from there to the map.
     pub fn file(&self, target: &Path) -> Result<String, SceneError> {
-        let map = relative(&self.path, target).ok_or_else(|| SceneError::Unreadable {
-            file: shown_path(target),
-            reason: format!("no path of UTF-8 text leads from here to {}", shown_path(&self.path)),
-            remedy: "write the scene into the folder of the height file".to_owned(),
-        })?;
-        text::with_sets(&text::write(&self.view, &map, self.encoding), &self.sets)
+        let mut top = vec![
+            "Chosen by terraline for a height file: the whole map from above one of its sides. \
+             Lengths in scene units, angles in degrees; x east, y up, z south."
+                .to_owned(),
+        ];
+        top.extend(self.chosen.iter().map(|reason| format!("Note: {reason}.")));
+        let map = match &self.scene.surface {
+            Surface::Terrain(terrain) if !terrain.is_built_in() => {
+                let map = self.folder.join(&terrain.source);
+                relative(&map, target).ok_or_else(|| SceneError::Unreadable {
+                    file: shown_path(target),
+                    reason: format!(
+                        "no path of UTF-8 text leads from here to {}",
+                        shown_path(&map)
+                    ),
+                    remedy: "write the scene into the folder of the height file".to_owned(),
+                })?
+            }
+            _ => String::new(),
+        };
+        Ok(write::commented(&self.scene, &map, &top))
     }
 }
 
@@ -142,9 +146,4 @@ fn relative(file: &Path, from: &Path) -> Option<String> {
     let down = file.components().skip(shared).map(|part| part.as_os_str().to_str());
     let parts: Option<Vec<&str>> = up.chain(down).collect();
     Some(parts?.join("/"))
-}
-
-/// Nodes of a map that make a scene's sides.
-fn cells(map: &HeightMap) -> (f64, f64) {
-    ((map.columns() - 1) as f64, (map.rows() - 1) as f64)
 }

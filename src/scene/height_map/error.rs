@@ -1,0 +1,58 @@
+//! What maps may be, and the message for those that are not.
+
+use thiserror::Error;
+
+/// A map has at most this many nodes in each direction.
+pub const MAX_SIDE: u32 = 16384;
+
+/// A map has at most this many nodes.
+pub const MAX_NODES: u64 = 1 << 26;
+
+/// Deflate makes at most 1032 bytes out of one, so a larger claim cannot be true.
+pub(super) const DEFLATE_RATIO: u64 = 1032;
+
+/// Why a height map cannot be used. Its `Display` is one line that starts with the file.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{file}: {reason}; {remedy}")]
+pub struct MapError {
+    /// Path of the map, or `builtin:NAME`.
+    pub file: String,
+    /// Why.
+    pub reason: String,
+    /// What to do.
+    pub remedy: String,
+}
+
+impl MapError {
+    pub(in crate::scene) fn new(
+        file: &str,
+        reason: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self { file: file.to_owned(), reason: reason.into(), remedy: remedy.into() }
+    }
+}
+
+/// Refuses more nodes than a map may have, and no nodes at all.
+pub(super) fn check_size(name: &str, columns: u64, rows: u64) -> Result<(), MapError> {
+    if columns == 0 || rows == 0 {
+        return Err(MapError::new(
+            name,
+            format!("the header claims {columns} x {rows} nodes"),
+            "give a file that holds a map",
+        ));
+    }
+    let side = u64::from(MAX_SIDE);
+    if columns > side || rows > side || columns * rows > MAX_NODES {
+        return Err(too_large(name, &format!("the header claims {columns} x {rows} nodes")));
+    }
+    Ok(())
+}
+
+pub(super) fn too_large(name: &str, reason: &str) -> MapError {
+    MapError::new(
+        name,
+        reason,
+        format!("crop or thin the map to at most {MAX_SIDE} nodes a side and {MAX_NODES} in all"),
+    )
+}

@@ -1,0 +1,59 @@
+//! The samples of a map.
+
+/// A grid of height samples as the file holds them.
+///
+/// Samples are kept as `f32`: exact for every 8- and 16-bit value. A node without data is NaN.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightMap {
+    columns: usize,
+    rows: usize,
+    /// Row by row, row 0 north.
+    samples: Vec<f32>,
+    range: (f32, f32),
+}
+
+impl HeightMap {
+    /// A map from its samples, row by row.
+    ///
+    /// # Panics
+    /// If the number of samples is not `columns * rows`, if one is infinite, or if none has data:
+    /// the readers have checked that.
+    pub fn new(columns: usize, rows: usize, samples: Vec<f32>) -> Self {
+        assert!(!samples.is_empty() && samples.len() == columns * rows);
+        let range = samples
+            .iter()
+            .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s)));
+        assert!(range.0.is_finite() && range.1.is_finite());
+        Self { columns, rows, samples, range }
+    }
+
+    /// Nodes in x.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Nodes in z.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Sample of node (column i, row j); NaN without data.
+    pub fn sample(&self, i: usize, j: usize) -> f32 {
+        self.samples[j * self.columns + i]
+    }
+
+    /// All samples, row by row; NaN without data.
+    pub fn samples(&self) -> &[f32] {
+        &self.samples
+    }
+
+    /// Nodes without data.
+    pub fn voids(&self) -> usize {
+        self.samples.iter().filter(|sample| sample.is_nan()).count()
+    }
+
+    /// Lowest and highest sample of the nodes with data.
+    pub fn range(&self) -> (f32, f32) {
+        self.range
+    }
+}

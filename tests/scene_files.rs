@@ -10,6 +10,7 @@ use terraline::scene::{
     Angles, Attitude, Extent, FormatRequest, Halvings, NoData, Overflow, Rounding, Scene,
     SceneError, Surface, Terrain, builtin, load,
 };
+use terraline::word::{Class, Register, Registers};
 
 mod support;
 
@@ -142,10 +143,22 @@ fn keys_go_where_they_belong() {
     assert_eq!(scene.stepper.halvings, Halvings::Fixed(20));
     assert_eq!((scene.light.direction, scene.color.ramp.len()), (DVec3::Y, 3));
     // In the order of the file, so that a register may refine its class.
-    let coarse =
-        FormatRequest { width: 62, point: 62, rounding: Rounding::Floor, overflow: Overflow::Wrap };
-    let fine = FormatRequest { width: 48, point: 30, rounding: Rounding::NearestEven, ..coarse };
-    assert_eq!(scene.formats, [("view".to_owned(), coarse), ("ground_x".to_owned(), fine)]);
+    let coarse = FormatRequest {
+        width: 62,
+        point: 62,
+        rounding: Rounding::Nearest,
+        overflow: Overflow::Wrap,
+    };
+    let fine = FormatRequest {
+        width: 48,
+        point: 30,
+        rounding: Rounding::NearestEven,
+        overflow: Overflow::Saturate,
+    };
+    assert_eq!(
+        scene.formats,
+        [(Registers::Class(Class::View), coarse), (Registers::One(Register::GroundX), fine)]
+    );
 }
 
 #[test]

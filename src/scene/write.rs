@@ -15,7 +15,7 @@ pub fn toml(scene: &Scene, map: &str) -> String {
     written(scene, map, Writer::default())
 }
 
-/// As [`toml`], with the meaning of every key beside it, the keys that could stand in place of
+/// As [`toml()`], with the meaning of every key beside it, the keys that could stand in place of
 /// others too, and paragraphs at the top.
 #[must_use]
 pub fn commented(scene: &Scene, map: &str, top: &[String]) -> String {

@@ -1,11 +1,9 @@
 //! One clear message for everything a scene file can get wrong.
 
-use terraline::engine::FixedWorld;
-use terraline::plan::Plan;
 use terraline::scene::keys::sections;
 
 use super::support::keys::{file_with, illegal};
-use super::{assert_says, scene, try_scene};
+use super::{assert_says, try_scene};
 
 /// The text fails with a message that holds the words and, after them, a remedy.
 #[track_caller]
@@ -42,6 +40,15 @@ fn unknown_keys_suggest_the_nearest() {
     assert_fails("[[surface]]\nheight = { ofset = 1 }", &["line 2", "`surface.height.offset`"]);
     assert_fails("[[surface]]\nkind = \"plane\"\nmap = \"a.png\"", &["line 3", "surface.map"]);
     assert_fails("[format]\nview = { with = 3 }", &["format.view.with", "width"]);
+    assert_fails(
+        "[format]\ngrund = { width = 32, point = 8 }",
+        &["line 2, column 9: format.grund: no register or class", "did you mean `ground`?"],
+    );
+    assert_fails("[format]\nqqqq = 3", &["format.qqqq", "view, ground, height, weight and tone"]);
+    assert_fails(
+        "[format]\nsurface = { width = 32, point = 8 }",
+        &["format.surface: this register has the format of node", "set node instead"],
+    );
     for table in ["kernel", "stepper", "light", "color", "machine"] {
         assert_fails(&format!("[{table}]\nzzz = 1"), &["line 2", &format!("{table}.zzz")]);
     }
@@ -148,12 +155,7 @@ fn odd_names_stay_on_one_line() {
         assert_fails(text, &[word]);
     }
     let error = try_scene("", &["format.a\nb=3"]).unwrap_err();
-    assert_says(&error, &["--set format.a\\nb: found 3"]);
-    // Names of registers are looked up when the plan is known.
-    let scene = scene("[format]\n\"a\\nb\" = { width = 30, point = 9 }", &[]);
-    let plan = Plan::new(&scene, None, false).unwrap();
-    let message = FixedWorld::of(&scene, &plan).unwrap_err().to_string();
-    assert!(message.starts_with("format.a\\nb: no register") && message.lines().count() == 1);
+    assert_says(&error, &["--set format.a\\nb: no register or class has this name"]);
 }
 
 #[test]

@@ -32,7 +32,7 @@ pub struct Machine<'a> {
 pub(super) enum Fixed {
     Narrow(Setup<Narrow>),
     Wide(Setup<Wide>),
-    Sweep(Setup<Sweep>),
+    Sweep(Box<Setup<Sweep>>),
 }
 
 /// The same code for each world that a set-up may be in.
@@ -86,7 +86,7 @@ impl<'a> Machine<'a> {
             }
             FixedWorld::Sweep(world) => {
                 let (setup, time) = memories.set_up_timed(world, scene, plan)?;
-                (Fixed::Sweep(setup), time)
+                (Fixed::Sweep(Box::new(setup)), time)
             }
         };
         let (memories, real, oracle) = (memories.clone(), OnceLock::new(), OnceLock::new());

@@ -16,19 +16,17 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::TestRunner;
 use tempfile::TempDir;
-use terraline::engine::{FixedWorld, draw_oracle};
+use terraline::engine::{Engine, FixedWorld};
 use terraline::frame::Frame;
 use terraline::plan::{Ground, Plan};
 use terraline::scene::file::{Document, parse};
 use terraline::scene::{Scene, SceneError, Surface, builtin, framing, write};
 use terraline::setup::SetupError;
-use terraline::study::cost::Measure;
-use terraline::study::error::{self, Sample};
-use terraline::study::explain::explain;
+use terraline::study::error::Sample;
 
 use super::damage::damages;
 use super::grids::grids;
-use super::support::{both, described, difference, draw_in_real, drawn, is_under_ground};
+use super::support::{both, described, difference, drawn, is_under_ground, machine};
 use super::wild::{options, scenes};
 use super::{EVERY_TABLE, PEAK};
 
@@ -231,14 +229,14 @@ fn draw(mut scene: Scene, stages: &AtomicUsize) -> Result<(), Stop> {
         } else {
             drawn(&scene, &plan).map_err(refused)?
         };
-        study(&scene, &plan, &world, &frame)?;
+        study(&scene, &plan, &frame)?;
         stages.store(3, Relaxed);
     }
     Ok(())
 }
 
 /// What the commands do with a scene that can be drawn: that must work.
-fn study(scene: &Scene, plan: &Plan, world: &FixedWorld, frame: &Frame) -> Result<(), Stop> {
+fn study(scene: &Scene, plan: &Plan, frame: &Frame) -> Result<(), Stop> {
     let wrong = |error: &SetupError| {
         // In a coarse world the ground may be lower than it is.
         if is_under_ground(error) {
@@ -248,16 +246,16 @@ fn study(scene: &Scene, plan: &Plan, world: &FixedWorld, frame: &Frame) -> Resul
         }
     };
     let pixels = frame.hit.len();
-    let real = draw_in_real(scene, plan).map_err(|error| wrong(&error))?;
-    let oracle = draw_oracle(scene, plan);
+    let machine = machine(scene, plan).map_err(|error| wrong(&error))?;
+    let real = machine.frame(Engine::Real, true).map_err(|error| wrong(&error))?;
+    let oracle = machine.frame(Engine::Oracle, true).map_err(|error| wrong(&error))?;
     if (real.hit.len(), oracle.hit.len()) != (pixels, pixels) {
         return Err(Stop::Wrong("frames of several sizes".into()));
     }
     let sample = Sample::strips(plan, 3, scene.seed);
-    let errors = error::pixels(scene, plan, world, &sample).map_err(|error| wrong(&error))?;
-    let explanation = explain(scene, plan, world, 1, 1).map_err(|error| wrong(&error))?;
-    let measure = Measure { scene, plan, cycles: &sample, operations: &sample };
-    let cost = world.run(measure).map_err(|error| wrong(&error))?;
+    let errors = machine.errors(&sample).map_err(|error| wrong(&error))?;
+    let explanation = machine.explain(1, 1).map_err(|error| wrong(&error))?;
+    let cost = machine.cost(&sample, &sample).map_err(|error| wrong(&error))?;
     if errors.len() != sample.len() || explanation.rows.is_empty() || cost.cycles == 0 {
         return Err(Stop::Wrong("studies of nothing".into()));
     }

@@ -14,10 +14,10 @@ use terraline::plan::Plan;
 use terraline::processor::Processor;
 use terraline::scene::load;
 use terraline::setup::Back;
-use terraline::unit::Line;
 use terraline::unit::checker::Checker;
 use terraline::unit::line::Entry;
 use terraline::unit::pixel::Pixel;
+use terraline::unit::{Line, Unit as _};
 use terraline::word::stock::{Narrow, Wide};
 use terraline::word::{Cell, Lane, Multiply, Register, Site, Word};
 use terraline_hdl::Model;
@@ -59,8 +59,8 @@ fn compare<W: Stock>(rtl: &mut Model, line: &Line<W>, random: &mut Random) {
             };
             rtl.set(entry, line.entry[i] as u64);
             rtl.set_signed(denominator, bits(line.denominator[i]));
-            rtl.set_signed(ground_x, bits(line.ground_x[i]));
-            rtl.set_signed(ground_z, bits(line.ground_z[i]));
+            rtl.set_signed(ground_x, bits(line.entry_x[i]));
+            rtl.set_signed(ground_z, bits(line.entry_z[i]));
             rtl.set(in_tag, i as u64 & TAG);
         },
         |rtl, i| {
@@ -72,8 +72,8 @@ fn compare<W: Stock>(rtl: &mut Model, line: &Line<W>, random: &mut Random) {
                 "item {i}: {:?}, denominator {:?}, place {:?} {:?}",
                 line.entry[i],
                 line.denominator[i],
-                line.ground_x[i],
-                line.ground_z[i]
+                line.entry_x[i],
+                line.entry_z[i]
             );
         },
     );
@@ -254,8 +254,8 @@ fn hostile<W: Stock>(world: W, seed: u64) {
                     break;
                 }
             }
-            line.ground_x[i] = word(random.word(W::WIDTH));
-            line.ground_z[i] = word(random.word(W::WIDTH));
+            line.entry_x[i] = word(random.word(W::WIDTH));
+            line.entry_z[i] = word(random.word(W::WIDTH));
         }
         checker.run(&mut line);
         compare(&mut rtl, &line, &mut random);

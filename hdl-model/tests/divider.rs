@@ -6,10 +6,9 @@ mod random;
 
 use elastic::{Pace, Timing};
 use random::Random;
-use terraline::setup::table::DIVIDER_ENDS;
-use terraline::unit::Line;
-use terraline::unit::divider::{Divider, Method};
+use terraline::unit::divider::{Divider, ENDS as DIVIDER_ENDS};
 use terraline::unit::line::Entry;
+use terraline::unit::{Line, Unit as _};
 use terraline::word::stock::{Narrow, Wide};
 use terraline::word::{Dividing, Lane, Ratio};
 use terraline_hdl::Model;
@@ -91,7 +90,9 @@ fn compare<S: Size>(serial: bool, rounds: u64, count: usize) {
             eye_z: S::ground_word(eye_z),
             ratio_x: ratio,
             ratio_z: ratio,
-            bits,
+            shifts: [shift; 2],
+            bits: [bits; 2],
+            serial,
         };
         let items: Vec<_> = (0..count).map(|_| item::<S>(&mut random, shift, bits)).collect();
         let mut line = Line::new(&S::default(), 0..count as u32);
@@ -100,7 +101,7 @@ fn compare<S: Size>(serial: bool, rounds: u64, count: usize) {
             line.view_z[i] = S::view_word(item[1]);
             line.denominator[i] = S::view_word(item[2]);
         }
-        unit.run(&mut line, Method::Array);
+        unit.run(&mut line);
         let mut set = |name, value| rtl.set_signed(rtl.port(name), value);
         set("eye_x", eye_x);
         set("eye_z", eye_z);
@@ -127,7 +128,7 @@ fn compare<S: Size>(serial: bool, rounds: u64, count: usize) {
             );
             if line.entry[i] == Entry::Met {
                 let found = [ground_x, ground_z].map(|port| rtl.signed(port));
-                let expected = [S::bits(line.ground_x[i]), S::bits(line.ground_z[i])];
+                let expected = [S::bits(line.entry_x[i]), S::bits(line.entry_z[i])];
                 assert_eq!(found, expected, "{item:?}, shift {shift}, {bits} bits");
             }
         };

@@ -4,7 +4,7 @@
 use terraline::clock::Sink;
 use terraline::engine::{self, Memories, WithSetup};
 use terraline::plan::Plan;
-use terraline::scene::{self, Scene};
+use terraline::scene;
 use terraline::setup::Back;
 use terraline::setup::Setup;
 use terraline::word::Complete;
@@ -13,12 +13,11 @@ use terraline::word::stock::Narrow;
 use terraline_hdl::cosim::{Outcome, compare, compare_with};
 use terraline_hdl::machine::Machine;
 
-struct Cosimulation<'a> {
-    scene: &'a Scene,
+struct Cosimulation {
     sink: Sink,
 }
 
-impl WithSetup for Cosimulation<'_> {
+impl WithSetup for Cosimulation {
     type Output = Outcome;
 
     fn run<W: Complete>(self, setup: &Setup<W>) -> Outcome {
@@ -31,7 +30,7 @@ fn assert_equal(name: &str, sets: &[&str], sink: Sink) {
     let scene = scene::load(Some(name), &sets).expect("a scene");
     let plan = Plan::new(&scene, None, false).expect("a plan");
     let machine = engine::Machine::new(&scene, &plan, &Memories::default()).expect("a set-up");
-    let outcome = machine.run(Cosimulation { scene: &scene, sink });
+    let outcome = machine.run(Cosimulation { sink });
     assert!(
         outcome.is_equal(),
         "{name} {sets:?} {sink:?}: {} differences, {} cycles for {}\n{}",

@@ -5,8 +5,8 @@ mod random;
 
 use random::Random;
 use terraline::clock::Sink;
-use terraline::unit::Line;
 use terraline::unit::projector::{Linear, Projector};
+use terraline::unit::{Line, Unit as _};
 use terraline::word::stock::{Narrow, Wide};
 use terraline::word::{Lane, World};
 use terraline_hdl::Model;
@@ -52,15 +52,15 @@ fn compare<W: World<View: Lane>>(
             denominator: Some(linear("denominator")),
         };
         let mut expected = Vec::new();
-        let mut line_start = unit.first_line();
         let mut line = Line::new(&world, 0..columns);
+        line.start = unit.first_line();
         for _ in 0..lines {
-            unit.run(&line_start, &mut line);
+            unit.run(&mut line);
             for i in 0..columns as usize {
                 let wires = [line.view_x[i], line.view_y[i], line.view_z[i], line.denominator[i]];
                 expected.push(wires.map(&bits));
             }
-            unit.next_line(&mut line_start);
+            unit.next_line(&mut line.start);
         }
         let sink = Sink::Busy { seed: frame, of_256: (frame % 3 * 100) as u8 };
         rtl.set(reset, 1);

@@ -288,7 +288,7 @@ fn hostile<W: Stock>(world: W, seed: u64) {
                 });
                 tried.slope_x[0] = word(random.word(W::WIDTH));
                 tried.slope_z[0] = word(random.word(W::WIDTH));
-                shader.run(&mut tried);
+                shader.units().for_each(|unit| unit.run(&mut tried));
                 if line.hit[i] != Hit::Surface || is_near_rounding::<W>(tried.lit[0], within) {
                     break;
                 }
@@ -296,7 +296,7 @@ fn hostile<W: Stock>(world: W, seed: u64) {
             line.surface[i] = tried.surface[0];
             (line.slope_x[i], line.slope_z[i]) = (tried.slope_x[0], tried.slope_z[0]);
         }
-        shader.run(&mut line);
+        shader.units().for_each(|unit| unit.run(&mut line));
         compare(&mut rtl, &line, &mut random);
     }
 }
@@ -331,7 +331,7 @@ fn parts<W: Stock>(world: W, seed: u64) {
             line.slope_x[i] = word(random.word(W::WIDTH));
             line.slope_z[i] = word(random.word(W::WIDTH));
         }
-        shader.run(&mut line);
+        shader.units().for_each(|unit| unit.run(&mut line));
         for cycle in 0..ITEMS + LATENCY {
             if cycle < ITEMS {
                 light.set_signed(slope_x, bits(line.slope_x[cycle]));

@@ -10,7 +10,6 @@ use terraline::cli::{Stop, report};
 use terraline::clock::Sink;
 use terraline::engine::WithSetup;
 use terraline::plan::{Ground, Plan};
-use terraline::scene::Scene;
 use terraline::setup::Setup;
 use terraline::word::Complete;
 
@@ -76,7 +75,6 @@ struct Report {
 }
 
 struct Compare<'a> {
-    scene: &'a Scene,
     sink: Sink,
     trace: Option<(&'a str, Window)>,
 }
@@ -105,7 +103,6 @@ impl Cosim {
         let window = self.window(plan).map_err(Stop::BadInput)?;
         let path = self.trace.as_deref().map(trace_path).transpose()?;
         let compare = Compare {
-            scene,
             sink: match self.busy {
                 0 => Sink::Ready,
                 of_256 => Sink::Busy { seed: scene.seed, of_256 },

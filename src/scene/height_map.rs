@@ -53,6 +53,7 @@ pub struct HeightMap {
     /// Row by row, row 0 north.
     samples: Vec<f32>,
     range: (f32, f32),
+    voids: usize,
 }
 
 impl HeightMap {
@@ -67,7 +68,8 @@ impl HeightMap {
             .iter()
             .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s)));
         assert!(range.0.is_finite() && range.1.is_finite());
-        Self { columns, rows, samples, range }
+        let voids = samples.iter().filter(|sample| sample.is_nan()).count();
+        Self { columns, rows, samples, range, voids }
     }
 
     /// Reads a height file of any format, samples as stored, and leaves its georeference aside.
@@ -109,7 +111,7 @@ impl HeightMap {
 
     /// Nodes without data.
     pub fn voids(&self) -> usize {
-        self.samples.iter().filter(|sample| sample.is_nan()).count()
+        self.voids
     }
 
     /// Lowest and highest sample of the nodes with data.

@@ -4,15 +4,15 @@
 mod support;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use terraline::engine::{FixedWorld, InFixedWorld, draw_by_lines};
+use terraline::engine::{FixedWorld, InFastWorld, draw_by_lines};
 use terraline::fast::{self, enter::Enterable};
 use terraline::plan::Plan;
 use terraline::scene::Scene;
 use terraline::setup::{Memory, Setup};
 use terraline::unit::height_memory::{Edge, HeightMemory};
 use terraline::unit::pyramid::Pyramid;
+use terraline::word::Load;
 use terraline::word::stock::{Height32, Narrow};
-use terraline::word::{Complete, Load};
 
 struct Frames<'a> {
     criterion: &'a mut Criterion,
@@ -21,17 +21,20 @@ struct Frames<'a> {
     plan: &'a Plan,
 }
 
-impl InFixedWorld for Frames<'_> {
+impl InFastWorld for Frames<'_> {
     type Output = ();
 
-    fn run<W: Complete + Enterable>(self, world: W) {
+    fn run<W: Enterable>(self, world: W) {
         let Self { criterion, name, scene, plan } = self;
         let memory = Memory::new(&world, scene, plan).expect("the scene fits");
+        let map = fast::Map::new(&world, scene, plan, memory.as_ref());
         let setup = || Setup::new(world, scene, plan, memory.as_ref()).expect("the scene fits");
         let mut group = criterion.benchmark_group(format!("frames/{name}"));
         let pixels = u64::from(plan.geometry.columns) * u64::from(plan.geometry.lines);
         group.sample_size(10).throughput(Throughput::Elements(pixels));
-        group.bench_function("fast", |b| b.iter(|| fast::render(&setup(), plan, false)));
+        group.bench_function("fast", |b| {
+            b.iter(|| fast::render(&setup(), map.as_ref(), plan, false))
+        });
         group.bench_function("processor", |b| {
             b.iter(|| draw_by_lines(&setup(), plan, false, |_| {}));
         });
@@ -45,7 +48,7 @@ fn frames(criterion: &mut Criterion) {
             let (scene, plan) = support::planned(name, size, size);
             let world = FixedWorld::of(&scene, &plan).expect("a built-in scene has a world");
             let name = format!("{name}/{size}");
-            world.run(Frames { criterion, name, scene: &scene, plan: &plan });
+            world.run_fast(Frames { criterion, name, scene: &scene, plan: &plan });
         }
     }
 }

@@ -55,7 +55,15 @@ pub trait InFixedWorld {
     /// Result.
     type Output;
     /// Does the work in a world.
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output;
+    fn run<W: Complete>(self, world: W) -> Self::Output;
+}
+
+/// Work that the fast engine has a part in.
+pub trait InFastWorld {
+    /// Result.
+    type Output;
+    /// Does the work in a world.
+    fn run<W: Enterable>(self, world: W) -> Self::Output;
 }
 
 impl FixedWorld {
@@ -75,6 +83,15 @@ impl FixedWorld {
 
     /// Runs generic work in this world.
     pub fn run<J: InFixedWorld>(&self, work: J) -> J::Output {
+        match self {
+            Self::Narrow(world) => work.run(*world),
+            Self::Wide(world) => work.run(*world),
+            Self::Sweep(world) => work.run(*world),
+        }
+    }
+
+    /// Runs work that the fast engine has a part in.
+    pub fn run_fast<J: InFastWorld>(&self, work: J) -> J::Output {
         match self {
             Self::Narrow(world) => work.run(*world),
             Self::Wide(world) => work.run(*world),

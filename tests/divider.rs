@@ -164,8 +164,8 @@ fn both_ways_agree<W: Complete>(world: W, scene: &Scene) -> usize {
         divider.run(&mut direct, Method::Direct);
         for i in 0..line.len() {
             assert_eq!(
-                (line.entry[i], line.ground_x[i], line.ground_z[i]),
-                (direct.entry[i], direct.ground_x[i], direct.ground_z[i]),
+                (line.entry[i], line.ground_x[i].raw(), line.ground_z[i].raw()),
+                (direct.entry[i], direct.ground_x[i].raw(), direct.ground_z[i].raw()),
                 "line {number}, column {i}, exponent {}",
                 divider.ratio_x.exponent
             );

@@ -11,7 +11,7 @@ mod scan;
 use std::collections::VecDeque;
 
 use proptest::prelude::*;
-use terraline::engine::{self, Engine, FixedWorld, InFixedWorld};
+use terraline::engine::{self, Engine, FixedWorld, InFastWorld};
 use terraline::fast::{self, enter::Enterable};
 use terraline::frame::{Frame, Hit};
 use terraline::plan::Plan;
@@ -29,7 +29,6 @@ use terraline::view::pane::Pane;
 use terraline::view::run::{Glass, RunError, View};
 use terraline::view::script;
 use terraline::view::session::Session;
-use terraline::word::Complete;
 
 /// A glass whose size changes from frame to frame, the last one staying.
 struct Sizes(VecDeque<(usize, usize)>);
@@ -86,13 +85,14 @@ fn run(scene: Scene, size: (usize, usize), keys: &str) -> (Canvas, Vec<String>) 
 
 struct Fast<'a>(&'a Scene, &'a Plan);
 
-impl InFixedWorld for Fast<'_> {
+impl InFastWorld for Fast<'_> {
     type Output = Frame;
-    fn run<W: Complete + Enterable>(self, world: W) -> Frame {
+    fn run<W: Enterable>(self, world: W) -> Frame {
         let memory = Memory::new(&world, self.0, self.1).expect("a scene that can be drawn");
         let setup =
             Setup::new(world, self.0, self.1, memory.as_ref()).expect("a scene that can be drawn");
-        fast::render(&setup, self.1, true)
+        let map = fast::Map::new(&world, self.0, self.1, memory.as_ref());
+        fast::render(&setup, map.as_ref(), self.1, true)
     }
 }
 
@@ -111,7 +111,7 @@ fn frame(scene: &Scene, size: (usize, usize), engine: Engine) -> Frame {
         }
         _ => FixedWorld::of(&scene, &plan)
             .expect("a scene that can be drawn")
-            .run(Fast(&scene, &plan)),
+            .run_fast(Fast(&scene, &plan)),
     }
 }
 

@@ -3,7 +3,6 @@
 
 use terraline::clock::Sink;
 use terraline::engine::{FixedWorld, InFixedWorld};
-use terraline::fast::enter::Enterable;
 use terraline::plan::Plan;
 use terraline::scene::{self, Scene};
 use terraline::setup::Back;
@@ -23,7 +22,7 @@ struct Cosimulation<'a> {
 impl InFixedWorld for Cosimulation<'_> {
     type Output = Outcome;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Outcome {
+    fn run<W: Complete>(self, world: W) -> Outcome {
         let memory = Memory::new(&world, self.scene, self.plan).expect("memories");
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref()).expect("a set-up");
         compare(&setup, &self.scene.machine, self.sink, None).expect("a frame")

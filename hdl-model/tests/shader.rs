@@ -23,7 +23,7 @@ use terraline::unit::pixel::Pixel;
 use terraline::unit::ramp::Ramp;
 use terraline::unit::shader::Shader;
 use terraline::word::stock::{Narrow, Wide};
-use terraline::word::{Cell, Lane, Register, World as _};
+use terraline::word::{Cell, Lane, Register, Table};
 use terraline_hdl::Model;
 
 /// Entries per unit of the table, as a power of two.
@@ -38,7 +38,7 @@ fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &Shader<W>) {
     set("side_color", packed(shader.pixel.side) as i64);
     set("lit", shader.light.is_some().into());
     if let Some(light) = &shader.light {
-        assert_eq!(light.rsqrt_log2, RSQRT_LOG2);
+        assert_eq!(light.rsqrt.log2(), RSQRT_LOG2);
         for (name, toward) in ["toward_x", "toward_y", "toward_z"].into_iter().zip(light.toward) {
             set(name, bits(toward));
         }
@@ -58,7 +58,7 @@ fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &Shader<W>) {
         rtl.set(strobe, 0);
     };
     if let Some(light) = &shader.light {
-        for (at, &entry) in light.rsqrt.iter().enumerate() {
+        for (at, &entry) in light.rsqrt.entries().iter().enumerate() {
             write(load_rsqrt, at, bits(entry));
         }
     }
@@ -180,8 +180,7 @@ fn hostile_shader<W: Stock>(world: W, random: &mut Random) -> Shader<W> {
         toward: std::array::from_fn(|_| word(toward(random))),
         ambient: word(ambient),
         one: word(one),
-        rsqrt: Arc::new(rsqrt),
-        rsqrt_log2: RSQRT_LOG2,
+        rsqrt: Arc::new(Table::new(RSQRT_LOG2, rsqrt)),
         normal_format: world.tone(Register::Normal),
     };
     let color = |random: &mut Random| {

@@ -13,7 +13,7 @@ use super::scene_args::{Planned, SceneArgs};
 use super::scene_out::SceneOut;
 use super::{Stop, report};
 use crate::clock::{Chain, Clock};
-use crate::engine::{self, Engine, InFixedWorld, Overflows};
+use crate::engine::{self, Engine, InFastWorld, InFixedWorld, Overflows};
 use crate::fast::{self, enter::Enterable};
 use crate::frame::Frame;
 use crate::plan::units::{UnitPlan, units};
@@ -84,13 +84,17 @@ struct Draw<'a> {
     cycles: bool,
 }
 
-impl InFixedWorld for Draw<'_> {
+impl InFastWorld for Draw<'_> {
     type Output = Result<Drawn, SetupError>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+    fn run<W: Enterable>(self, world: W) -> Self::Output {
         let Planned { scene, plan, .. } = self.planned;
         let start = Instant::now();
         let memory = Memory::new(&world, scene, plan)?;
+        let map = match self.engine {
+            Engine::Fast => fast::Map::new(&world, scene, plan, memory.as_ref()),
+            _ => None,
+        };
         let loaded = start.elapsed();
         let mut overflows = Overflows::default();
         let mut cycles = None;
@@ -100,14 +104,15 @@ impl InFixedWorld for Draw<'_> {
             let start = Instant::now();
             let setup = Setup::new(world, scene, plan, memory.as_ref())?;
             frame = Some(if self.engine == Engine::Fast && !self.planned.world.can_overflow() {
-                fast::render(&setup, plan, self.buffers)
+                fast::render(&setup, map.as_ref(), plan, self.buffers)
             } else if self.engine == Engine::Fast {
                 let found = Mutex::new(Overflows::default());
-                let frame = fast::render_and_look(&setup, plan, self.buffers, &|line| {
-                    if let Ok(mut found) = found.lock() {
-                        found.inspect(line);
-                    }
-                });
+                let frame =
+                    fast::render_and_look(&setup, map.as_ref(), plan, self.buffers, &|line| {
+                        if let Ok(mut found) = found.lock() {
+                            found.inspect(line);
+                        }
+                    });
                 overflows = found.into_inner().unwrap_or_default();
                 frame
             } else {
@@ -196,7 +201,7 @@ impl Render {
                     .into(),
             )),
             Engine::Fast | Engine::Processor => {
-                world.run(draw(self.engine)).map_err(|error| planned.refused(&error))
+                world.run_fast(draw(self.engine)).map_err(|error| planned.refused(&error))
             }
             Engine::Real | Engine::Oracle => {
                 let mut times = Vec::new();
@@ -263,7 +268,7 @@ pub struct Units<'a> {
 
 impl InFixedWorld for Units<'_> {
     type Output = Vec<UnitPlan>;
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+    fn run<W: Complete>(self, world: W) -> Self::Output {
         units(&self.planned.plan, &self.planned.scene, &world)
     }
 }

@@ -4,19 +4,22 @@
 //! A group of lines goes through projector and divider (`enter`), then tiles of four packets of
 //! sixteen rays each (`rays`) through `beam` (what all rays of a tile pass), `march` (blocks of the
 //! map), `solve` (single cells) and `refine` (the last step), then sixteen pixels at a time through
-//! `shade`. `words` says what vectors do (`narrow` and `wide` are they), `land` holds the map,
-//! `heights` the surface, `maxima` the blocks.
+//! `shade`. `map` is the engine's copy of the height map (`cells` its nodes, `maxima` its blocks),
+//! `land` what a packet needs to know, `heights` the surface, and `words` says what vectors do, which
+//! `narrow` and `wide` implement.
 //!
 //! Functions on vectors are `#[inline(always)]` and do without closures: what is not inlined into
 //! the function that `dispatch!` makes for a SIMD level is compiled without its instructions.
 #![deny(clippy::float_arithmetic)]
 
 mod beam;
+mod cells;
 pub mod enter;
 mod heights;
 mod land;
+mod map;
 mod march;
-mod maxima;
+pub mod maxima;
 mod narrow;
 mod rays;
 mod refine;
@@ -34,8 +37,8 @@ use crate::readout::BufferBuilder;
 use crate::setup::{Back, Setup};
 use crate::unit::Line;
 use crate::unit::divider::Method;
-use crate::word::Complete;
 use enter::Enterable;
+pub use map::Map;
 use words::Packed;
 
 /// Lines that one task draws: enough to amortise its wires, few enough to balance two threads
@@ -47,9 +50,14 @@ pub const GROUP: usize = 4;
 
 /// Draws neighbouring lines, from `first` on, on wires that hold all columns. Any number of lines
 /// will do; [`GROUP`] are drawn at a time.
-pub fn run_lines<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
+pub fn run_lines<W: Enterable>(
+    setup: &Setup<W>,
+    map: Option<&Map<W>>,
+    first: u32,
+    lines: &mut [Line<W>],
+) {
     for (group, number) in lines.chunks_mut(GROUP).zip((first..).step_by(GROUP)) {
-        W::draw_group(Level::new(), setup, number, group);
+        W::draw_group(Level::new(), setup, map, number, group);
     }
 }
 
@@ -69,9 +77,10 @@ pub fn levels() -> Vec<Level> {
 }
 
 /// Draws a few neighbouring lines by packets.
-fn on_vectors<W: Complete + Packed + Enterable>(
+fn on_vectors<W: Packed + Enterable>(
     level: Level,
     setup: &Setup<W>,
+    map: Option<&Map<W>>,
     first: u32,
     lines: &mut [Line<W>],
 ) {
@@ -80,7 +89,7 @@ fn on_vectors<W: Complete + Packed + Enterable>(
         || {
             project(setup, first, lines);
             match &setup.back {
-                Back::Terrain(units) => march::draw(simd, units, lines),
+                Back::Terrain(units) => march::draw(simd, units, map, lines),
                 Back::Plane(checker) => lines.iter_mut().for_each(|line| checker.run(line)),
             }
         }
@@ -107,33 +116,41 @@ fn project<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
 }
 
 /// Draws a whole frame on all threads.
-pub fn render<W: Complete + Enterable>(setup: &Setup<W>, plan: &Plan, buffers: bool) -> Frame {
-    render_at(Level::new(), setup, plan, buffers)
-}
-
-/// The same frame at one of [`levels`].
-pub fn render_at<W: Complete + Enterable>(
-    level: Level,
+pub fn render<W: Enterable>(
     setup: &Setup<W>,
+    map: Option<&Map<W>>,
     plan: &Plan,
     buffers: bool,
 ) -> Frame {
-    draw(level, setup, plan, buffers, &|_| {})
+    render_at(Level::new(), setup, map, plan, buffers)
+}
+
+/// The same frame at one of [`levels`].
+pub fn render_at<W: Enterable>(
+    level: Level,
+    setup: &Setup<W>,
+    map: Option<&Map<W>>,
+    plan: &Plan,
+    buffers: bool,
+) -> Frame {
+    draw(level, setup, map, plan, buffers, &|_| {})
 }
 
 /// Draws a whole frame and shows every finished line to `look`, in no particular order.
-pub fn render_and_look<W: Complete + Enterable>(
+pub fn render_and_look<W: Enterable>(
     setup: &Setup<W>,
+    map: Option<&Map<W>>,
     plan: &Plan,
     buffers: bool,
     look: &(impl Fn(&Line<W>) + Sync),
 ) -> Frame {
-    draw(Level::new(), setup, plan, buffers, look)
+    draw(Level::new(), setup, map, plan, buffers, look)
 }
 
-fn draw<W: Complete + Enterable>(
+fn draw<W: Enterable>(
     level: Level,
     setup: &Setup<W>,
+    map: Option<&Map<W>>,
     plan: &Plan,
     buffers: bool,
     look: &(impl Fn(&Line<W>) + Sync),
@@ -154,7 +171,8 @@ fn draw<W: Complete + Enterable>(
                 let groups = color.chunks_mut(GROUP * columns).zip(hit.chunks_mut(GROUP * columns));
                 for (group, (color, hit)) in groups.enumerate() {
                     let wires = &mut wires[..color.len() / columns];
-                    W::draw_group(level, setup, (band * BAND + group * GROUP) as u32, wires);
+                    let first = (band * BAND + group * GROUP) as u32;
+                    W::draw_group(level, setup, map, first, wires);
                     let rows = color.chunks_exact_mut(columns).zip(hit.chunks_exact_mut(columns));
                     for (line, (color, hit)) in wires.iter().zip(rows) {
                         look(line);

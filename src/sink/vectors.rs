@@ -23,7 +23,6 @@ use super::SinkError;
 use super::folder::NewFolder;
 use crate::clock::Chain;
 use crate::engine::{FixedWorld, InFixedWorld};
-use crate::fast::enter::Enterable;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::setup::{Back, Memory, Setup, SetupError, table};
@@ -160,7 +159,7 @@ struct Files<'a> {
 impl InFixedWorld for Vectors<'_> {
     type Output = Result<Report, VectorsError>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+    fn run<W: Complete>(self, world: W) -> Self::Output {
         let memory = Memory::new(&world, self.scene, self.plan)?;
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
         let chain = Chain::new(&setup, &self.scene.machine, self.plan.fitted.idle);

@@ -6,7 +6,6 @@ use serde::Serialize;
 use super::error::Sample;
 use crate::clock::{Chain, Clock};
 use crate::engine::InFixedWorld;
-use crate::fast::enter::Enterable;
 use crate::frame::Hit;
 use crate::plan::Plan;
 use crate::processor::{self, Processor};
@@ -89,7 +88,7 @@ struct Reads {
 impl InFixedWorld for Measure<'_> {
     type Output = Result<Cost, SetupError>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+    fn run<W: Complete>(self, world: W) -> Self::Output {
         let memory = Memory::new(&world, self.scene, self.plan)?;
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())?;
         let chain = Chain::new(&setup, &self.scene.machine, self.plan.fitted.idle);

@@ -9,7 +9,6 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::engine::{self, FixedWorld, InFixedWorld};
-use crate::fast::enter::Enterable;
 use crate::frame::Hit;
 use crate::oracle::Oracle;
 use crate::plan::Plan;
@@ -178,7 +177,7 @@ struct Compare<'a> {
 impl InFixedWorld for Compare<'_> {
     type Output = Result<Vec<PixelError>, SetupError>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+    fn run<W: Complete>(self, world: W) -> Self::Output {
         let Self { scene, plan, sample } = self;
         let memory = Memory::new(&Real, scene, plan)?;
         let real = Setup::new(Real, scene, plan, memory.as_ref())?;

@@ -12,7 +12,7 @@
 
 use super::Line;
 use crate::frame::Hit;
-use crate::word::{Cell, World};
+use crate::word::{Cell, Register, Site, World};
 
 /// Constant colours, of pixels that meet no lit surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,8 +29,9 @@ impl Pixel {
     /// Drives `color` of one line.
     pub fn run<W: World>(&self, line: &mut Line<W>) {
         for i in 0..line.len() {
+            let site = Site::pixel(line.number, line.column[i]);
             line.color[i] =
-                self.constant(line.hit[i]).unwrap_or_else(|| Self::rounded(line.lit[i]));
+                self.constant(line.hit[i]).unwrap_or_else(|| Self::rounded(line.lit[i], site));
         }
     }
 
@@ -47,7 +48,8 @@ impl Pixel {
 
     /// The nearest bytes of a colour, ties upward.
     #[inline(always)]
-    pub fn rounded<T: Cell>(color: [T; 3]) -> [u8; 3] {
-        color.map(|channel| channel.nearest().clamp(0, 255) as u8)
+    pub fn rounded<T: Cell>(color: [T; 3], site: Site) -> [u8; 3] {
+        let site = site.at(Register::Channel);
+        color.map(|channel| channel.nearest(site).clamp(0, 255) as u8)
     }
 }

@@ -4,15 +4,15 @@ use std::any::Any;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Instant;
 
-use crate::engine::{self, FixedWorld, InFixedWorld};
-use crate::fast::enter::Enterable;
+use crate::engine::{self, FixedWorld, InFastWorld};
+use crate::fast::{self, enter::Enterable};
 use crate::oracle::Oracle;
 use crate::plan::{Ground, Plan};
 use crate::scene::Scene;
 use crate::setup::{Memory, Setup, SetupError};
 use crate::study::error::{Comparison, PixelError, Sample};
-use crate::word::Complete;
 use crate::word::real::Real;
+use crate::word::{Complete, World};
 
 use super::pane::Source;
 use super::probe::{self, Modelled, Probe};
@@ -67,7 +67,7 @@ pub fn machine(
     let plan = Plan::new(scene, None, full)?;
     let world = FixedWorld::of(scene, &plan)?;
     let wraps = world.wraps();
-    world.run(Load { scene, plan, name: world.name(), wraps, memories })
+    world.run_fast(Load { scene, plan, name: world.name(), wraps, memories })
 }
 
 struct Load<'a> {
@@ -78,13 +78,13 @@ struct Load<'a> {
     memories: &'a Memories,
 }
 
-impl InFixedWorld for Load<'_> {
+impl InFastWorld for Load<'_> {
     type Output = Result<Box<dyn Machine>, SetupError>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
-        let memory = self.memories.get(world, self.scene, &self.plan)?;
+    fn run<W: Enterable>(self, world: W) -> Self::Output {
+        let kept = self.memories.get(world, self.scene, &self.plan)?;
         let start = Instant::now();
-        let fixed = Setup::new(world, self.scene, &self.plan, memory.as_ref().as_ref())?;
+        let fixed = Setup::new(world, self.scene, &self.plan, kept.memory.as_ref())?;
         Ok(Box::new(Loaded {
             set_up_seconds: start.elapsed().as_secs_f64(),
             scene: Arc::clone(self.scene),
@@ -92,6 +92,7 @@ impl InFixedWorld for Load<'_> {
             name: self.name,
             wraps: self.wraps,
             fixed,
+            kept,
             memories: self.memories.clone(),
             real: OnceLock::new(),
             oracle: OnceLock::new(),
@@ -106,6 +107,7 @@ struct Loaded<W: Complete> {
     name: &'static str,
     wraps: bool,
     fixed: Setup<W>,
+    kept: Arc<Kept<W>>,
     memories: Memories,
     real: OnceLock<Setup<Real>>,
     oracle: OnceLock<Oracle>,
@@ -116,8 +118,8 @@ impl<W: Complete> Loaded<W> {
         if let Some(real) = self.real.get() {
             return Ok(real);
         }
-        let memory = self.memories.get(Real, &self.scene, &self.plan)?;
-        let real = Setup::new(Real, &self.scene, &self.plan, memory.as_ref().as_ref())?;
+        let kept = self.memories.get(Real, &self.scene, &self.plan)?;
+        let real = Setup::new(Real, &self.scene, &self.plan, kept.memory.as_ref())?;
         Ok(self.real.get_or_init(|| real))
     }
 
@@ -135,7 +137,7 @@ impl<W: Complete> Loaded<W> {
     }
 }
 
-impl<W: Complete + Enterable> Machine for Loaded<W> {
+impl<W: Enterable> Machine for Loaded<W> {
     fn plan(&self) -> &Plan {
         &self.plan
     }
@@ -155,7 +157,15 @@ impl<W: Complete + Enterable> Machine for Loaded<W> {
     fn scan(&self, source: Source, buffers: bool) -> Result<Box<dyn Scan + '_>, SetupError> {
         let machine = &self.scene.machine;
         Ok(match source {
-            Source::Fast => Box::new(FastScan::new(&self.fixed, &self.plan, buffers)),
+            Source::Fast => {
+                let world = &self.fixed.world;
+                let memory = self.kept.memory.as_ref();
+                let map = self
+                    .kept
+                    .map
+                    .get_or_init(|| fast::Map::new(world, &self.scene, &self.plan, memory));
+                Box::new(FastScan::new(&self.fixed, map.as_ref(), &self.plan, buffers))
+            }
             Source::Processor => {
                 Box::new(ProcessorScan::new(&self.fixed, &self.plan, machine, buffers))
             }
@@ -186,15 +196,22 @@ impl<W: Complete + Enterable> Machine for Loaded<W> {
     }
 }
 
+/// What one world keeps of a surface from frame to frame.
+struct Kept<W: World> {
+    memory: Option<Memory<W>>,
+    /// Made when the fast engine first draws.
+    map: OnceLock<Option<fast::Map<W>>>,
+}
+
 /// Memories of one surface that were loaded before, the latest used last.
 #[derive(Clone, Default)]
-pub struct Memories(Arc<Mutex<Vec<Kept>>>);
+pub struct Memories(Arc<Mutex<Vec<(String, AnyKept)>>>);
 
-/// What a memory depends on, in words, and the memory.
-type Kept = (String, Arc<dyn Any + Send + Sync>);
+/// A [`Kept`] of any world, found by what it depends on, in words.
+type AnyKept = Arc<dyn Any + Send + Sync>;
 
 /// Fixed and real: of large maps they are large.
-const KEPT: usize = 2;
+const MOST: usize = 2;
 
 impl Memories {
     fn get<W: Complete>(
@@ -202,7 +219,7 @@ impl Memories {
         world: W,
         scene: &Scene,
         plan: &Plan,
-    ) -> Result<Arc<Option<Memory<W>>>, SetupError> {
+    ) -> Result<Arc<Kept<W>>, SetupError> {
         let scale = match &plan.ground {
             Ground::Terrain(walk) => Some(walk.scale),
             Ground::Plane(_) => None,
@@ -227,12 +244,13 @@ impl Memories {
                 }
             }
         }
-        let memory = Arc::new(Memory::new(&world, scene, plan)?);
+        let memory = Memory::new(&world, scene, plan)?;
+        let memory = Arc::new(Kept { memory, map: OnceLock::new() });
         let mut kept = kept();
-        if kept.len() >= KEPT {
+        if kept.len() >= MOST {
             kept.remove(0);
         }
-        kept.push((key, Arc::clone(&memory) as Arc<dyn Any + Send + Sync>));
+        kept.push((key, Arc::clone(&memory) as AnyKept));
         Ok(memory)
     }
 }

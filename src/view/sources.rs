@@ -55,6 +55,7 @@ fn next_lines(next: &mut u32, count: u32, lines: u32) -> Range<u32> {
 /// The fast engine, on all threads.
 pub struct FastScan<'a, W: Complete> {
     setup: &'a Setup<W>,
+    map: Option<&'a fast::Map<W>>,
     plan: &'a Plan,
     buffers: bool,
     next: u32,
@@ -65,12 +66,17 @@ const TASK: u32 = 8;
 
 impl<'a, W: Complete> FastScan<'a, W> {
     /// At the first line.
-    pub fn new(setup: &'a Setup<W>, plan: &'a Plan, buffers: bool) -> Self {
-        Self { setup, plan, buffers, next: 0 }
+    pub fn new(
+        setup: &'a Setup<W>,
+        map: Option<&'a fast::Map<W>>,
+        plan: &'a Plan,
+        buffers: bool,
+    ) -> Self {
+        Self { setup, map, plan, buffers, next: 0 }
     }
 }
 
-impl<W: Complete + Enterable> Scan for FastScan<'_, W> {
+impl<W: Enterable> Scan for FastScan<'_, W> {
     fn draw(&mut self, count: u32, stop: Stop<'_>) -> Option<Band> {
         let lines = next_lines(&mut self.next, count, self.setup.lines);
         let tasks = (lines.len() as u32).div_ceil(TASK);
@@ -87,7 +93,7 @@ impl<W: Complete + Enterable> Scan for FastScan<'_, W> {
                             return None;
                         }
                         let group = &mut wires[..fast::GROUP.min((numbers.end - first) as usize)];
-                        fast::run_lines(self.setup, first, group);
+                        fast::run_lines(self.setup, self.map, first, group);
                         group.iter().for_each(|line| part.push(line));
                     }
                     Some(part)

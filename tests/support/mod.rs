@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
-use terraline::engine::{FixedWorld, InFixedWorld, draw_by_lines, draw_real};
+use terraline::engine::{FixedWorld, InFastWorld, InFixedWorld, draw_by_lines, draw_real};
 use terraline::fast::{self, enter::Enterable};
 use terraline::frame::{Frame, Hit};
 use terraline::oracle::Oracle;
@@ -145,42 +145,40 @@ pub fn processor<W: Complete>(world: W, scene: &Scene, plan: &Plan) -> Result<Fr
 }
 
 /// Draws with the fast engine.
-pub fn fast<W: Complete + Enterable>(
-    world: W,
-    scene: &Scene,
-    plan: &Plan,
-) -> Result<Frame, SetupError> {
+pub fn fast<W: Enterable>(world: W, scene: &Scene, plan: &Plan) -> Result<Frame, SetupError> {
     let memory = Memory::new(&world, scene, plan)?;
     let setup = Setup::new(world, scene, plan, memory.as_ref())?;
-    Ok(fast::render(&setup, plan, true))
+    let map = fast::Map::new(&world, scene, plan, memory.as_ref());
+    Ok(fast::render(&setup, map.as_ref(), plan, true))
 }
 
 /// Draws with both engines in a scene's fixed-point world: processor, fast.
 pub fn both(scene: &Scene, plan: &Plan) -> Result<(Frame, Frame), SetupError> {
     struct Both<'a>(&'a Scene, &'a Plan);
-    impl InFixedWorld for Both<'_> {
+    impl InFastWorld for Both<'_> {
         type Output = Result<(Frame, Frame), SetupError>;
-        fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+        fn run<W: Enterable>(self, world: W) -> Self::Output {
             Ok((processor(world, self.0, self.1)?, fast(world, self.0, self.1)?))
         }
     }
-    FixedWorld::of(scene, plan)?.run(Both(scene, plan))
+    FixedWorld::of(scene, plan)?.run_fast(Both(scene, plan))
 }
 
 /// Draws with the fast engine at every SIMD level that there is.
 pub fn at_every_level(scene: &Scene, plan: &Plan) -> Result<Vec<Frame>, SetupError> {
     struct Levels<'a>(&'a Scene, &'a Plan);
-    impl InFixedWorld for Levels<'_> {
+    impl InFastWorld for Levels<'_> {
         type Output = Result<Vec<Frame>, SetupError>;
-        fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+        fn run<W: Enterable>(self, world: W) -> Self::Output {
             let Self(scene, plan) = self;
             let memory = Memory::new(&world, scene, plan)?;
             let setup = Setup::new(world, scene, plan, memory.as_ref())?;
-            let draw = |level| terraline::fast::render_at(level, &setup, plan, true);
-            Ok(terraline::fast::levels().into_iter().map(draw).collect())
+            let map = fast::Map::new(&world, scene, plan, memory.as_ref());
+            let draw = |level| fast::render_at(level, &setup, map.as_ref(), plan, true);
+            Ok(fast::levels().into_iter().map(draw).collect())
         }
     }
-    FixedWorld::of(scene, plan)?.run(Levels(scene, plan))
+    FixedWorld::of(scene, plan)?.run_fast(Levels(scene, plan))
 }
 
 /// Draws with the processor in a scene's fixed-point world.
@@ -188,7 +186,7 @@ pub fn drawn(scene: &Scene, plan: &Plan) -> Result<Frame, SetupError> {
     struct One<'a>(&'a Scene, &'a Plan);
     impl InFixedWorld for One<'_> {
         type Output = Result<Frame, SetupError>;
-        fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+        fn run<W: Complete>(self, world: W) -> Self::Output {
             processor(world, self.0, self.1)
         }
     }

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 
 use terraline::clock::Chain;
 use terraline::engine::InFixedWorld;
-use terraline::fast::enter::Enterable;
 use terraline::frame::Hit;
 use terraline::plan::Plan;
 use terraline::scene::Scene;
@@ -33,7 +32,7 @@ pub struct Grade<'a> {
 impl InFixedWorld for Grade<'_> {
     type Output = Result<(), String>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+    fn run<W: Complete>(self, world: W) -> Self::Output {
         let (scene, plan) = (self.scene, self.plan);
         let memory = Memory::new(&world, scene, plan).map_err(|error| error.to_string())?;
         let setup =

@@ -9,7 +9,6 @@ use terraline::cli::scene_args::SceneArgs;
 use terraline::cli::{Stop, report};
 use terraline::clock::Sink;
 use terraline::engine::InFixedWorld;
-use terraline::fast::enter::Enterable;
 use terraline::plan::{Ground, Plan};
 use terraline::scene::Scene;
 use terraline::setup::{Memory, Setup};
@@ -85,7 +84,7 @@ struct Compare<'a> {
 impl InFixedWorld for Compare<'_> {
     type Output = Result<Outcome, String>;
 
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+    fn run<W: Complete>(self, world: W) -> Self::Output {
         let memory =
             Memory::new(&world, self.scene, self.plan).map_err(|error| error.to_string())?;
         let setup = Setup::new(world, self.scene, self.plan, memory.as_ref())

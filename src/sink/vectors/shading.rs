@@ -50,7 +50,7 @@ pub fn light<'a, W: Complete>(world: &W, unit: &Light<W>) -> Unit<'a, W> {
             word(world, R::Shade, "light_z", z, TOWARD),
             word(world, R::Shade, "ambient", unit.ambient, "the ambient share"),
             word(world, R::Shade, "one", unit.one, "full light"),
-            number("rsqrt_log2", COUNT, unit.rsqrt_log2, "the table has 2^log2 entries a unit"),
+            number("rsqrt_log2", COUNT, unit.rsqrt.log2(), "the table has 2^log2 entries a unit"),
         ],
         wires,
     }

@@ -1,7 +1,6 @@
 //! What one number world says of one pixel, register by register.
 
 use crate::engine::InFixedWorld;
-use crate::fast::enter::Enterable;
 use crate::frame::Hit;
 use crate::plan::Plan;
 use crate::processor;
@@ -76,7 +75,7 @@ pub(super) struct Walk<'a> {
 
 impl InFixedWorld for Walk<'_> {
     type Output = Result<Trace, SetupError>;
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+    fn run<W: Complete>(self, world: W) -> Self::Output {
         self.trace(world)
     }
 }
@@ -169,7 +168,7 @@ impl Walk<'_> {
         };
         trace.unit("stepper");
         trace.place("start of the ray", place);
-        trace.exponent = stepper.exponent(line.view_x[0], line.view_y[0], line.view_z[0]);
+        trace.exponent = stepper.exponent(line.view_x[0], line.view_y[0], line.view_z[0], site);
         trace.read(Register::DGroundX, "step, x", step.x);
         trace.read(Register::DRayY, "step, y", step.y);
         trace.read(Register::DGroundZ, "step, z", step.z);
@@ -177,8 +176,13 @@ impl Walk<'_> {
             place = Place { x: place.x + step.x, y: place.y + step.y, z: place.z + step.z };
         }
         trace.place("last sample", place);
-        trace.hole =
-            at_hole(units, trace.hit, place.minus(step), [line.ground_x[0], line.ground_z[0]]);
+        trace.hole = at_hole(
+            units,
+            trace.hit,
+            place.minus(step),
+            [line.ground_x[0], line.ground_z[0]],
+            site,
+        );
         if !matches!(trace.hit, Hit::Surface | Hit::Side) {
             return;
         }
@@ -216,7 +220,7 @@ impl Walk<'_> {
         let site = Site::pixel(self.line, self.column);
         let interpolator = &units.interpolator;
         if interpolator.form == Form::Stretch {
-            let stencil = interpolator.stencil(x, z);
+            let stencil = interpolator.stencil(x, z, site);
             for (i, column) in stencil.nodes.iter().enumerate() {
                 for (j, node) in column.iter().enumerate() {
                     trace.read(
@@ -239,7 +243,9 @@ impl Walk<'_> {
                 );
             }
         } else {
-            for (node, name) in interpolator.nodes(x, z).into_iter().zip(["h1", "h2", "h3", "h4"]) {
+            for (node, name) in
+                interpolator.nodes(x, z, site).into_iter().zip(["h1", "h2", "h3", "h4"])
+            {
                 trace.read(Register::Node, format!("node {name}"), node);
             }
             let arm_x = interpolator.arm(x.fraction(), site.step(AT_THE_HIT ^ 1));
@@ -259,15 +265,18 @@ fn at_hole<W: Complete>(
     hit: Hit,
     before: Place<W>,
     [x, z]: [W::Ground; 2],
+    site: Site,
 ) -> Option<&'static str> {
     let interpolator = &units.interpolator;
     let holed = interpolator.heights.has_voids();
     match hit {
         // What is on the map and no surface is a hole.
-        Hit::Side if holed && interpolator.is_on_map(before.x, before.z) => {
+        Hit::Side if holed && interpolator.is_on_map(before.x, before.z, site) => {
             Some("the ray comes out of a hole under the surface and meets its side")
         }
-        Hit::Sky if holed && interpolator.is_on_map(x, z) && interpolator.is_hole(x, z) => {
+        Hit::Sky
+            if holed && interpolator.is_on_map(x, z, site) && interpolator.is_hole(x, z, site) =>
+        {
             Some("the ray leaves the map through a hole")
         }
         Hit::Surface | Hit::Side | Hit::Sky | Hit::Far => None,

@@ -1,5 +1,5 @@
-//! Words that flow through the projector and the stepper have no multiplication and no division:
-//! writing one does not compile.
+//! Words that flow through the projector and the stepper have no multiplication and no division, and
+//! no comparison without a place: writing one does not compile.
 
 use std::ops::{
     Add, AddAssign, BitAnd, BitOr, BitXor, Div, DivAssign, Mul, MulAssign, Neg, Not, Rem,
@@ -14,12 +14,16 @@ use terraline::word::stock::{
 };
 use terraline::word::sweep::{Sweep, SweepWord};
 use terraline::word::tally::{Tally, TallyWord};
-use terraline::word::{Complete, Divide, Enter, Interpolating, Multiply, Shading, World};
+use terraline::word::{
+    Complete, Divide, Enter, Interpolating, Load, Multiply, Shading, Site, Word, World,
+};
 
 macro_rules! additions_only {
     ($($word:ty),* $(,)?) => {
         $(
-            assert_impl_all!($word: Copy, PartialOrd, Add, Sub, Neg);
+            assert_impl_all!($word: Copy, Add, Sub, Neg);
+            // What a word decides, it decides at a named place.
+            assert_not_impl_any!($word: PartialOrd, PartialOrd<f64>, PartialOrd<i32>, Ord);
             assert_not_impl_any!(
                 $word: Mul<$word>, MulAssign<$word>, Div<$word>, DivAssign<$word>, Rem<$word>,
                 RemAssign<$word>, AddAssign<$word>, BitAnd<$word>, BitOr<$word>, BitXor<$word>,
@@ -64,15 +68,14 @@ assert_not_impl_any!(Height64: Multiply<Weight32>, Add<Height32>, Add<Ground64>)
 assert_not_impl_any!(Height32: Add<Ground32>, Sub<Weight32>, Add<i32>, Add<f64>);
 
 /// What every unit may do, for contrast with the files in `ui`.
-fn a_unit<W: World>(x: W::View, dx: W::View) -> bool {
-    -(x + dx - x) < x
+fn a_unit<W: World>(x: W::View, dx: W::View, site: Site) -> bool {
+    (-(x + dx - x)).is_below(x, site)
 }
 
 #[test]
 fn adding_compiles() {
-    use terraline::word::{Load, Word};
     let one = View32::load(1.0, ()).expect("one fits");
-    assert!(!a_unit::<Narrow>(-one, one.shift_floor(1)));
+    assert!(!a_unit::<Narrow>(-one, one.shift_floor(1), Site::pixel(0, 0)));
 }
 
 #[test]
@@ -80,4 +83,9 @@ fn multiplying_does_not_compile() {
     let cases = trybuild::TestCases::new();
     cases.compile_fail("tests/ui/multiply_in_projector.rs");
     cases.compile_fail("tests/ui/multiply_in_stepper.rs");
+}
+
+#[test]
+fn comparing_without_a_place_does_not_compile() {
+    trybuild::TestCases::new().compile_fail("tests/ui/compare_without_a_place.rs");
 }

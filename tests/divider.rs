@@ -165,8 +165,8 @@ fn both_ways_agree<W: Complete>(world: W, scene: &Scene) -> usize {
         divider.run_by(Method::Direct, &mut direct);
         for i in 0..line.len() {
             assert_eq!(
-                (line.entry[i], line.entry_x[i], line.entry_z[i]),
-                (direct.entry[i], direct.entry_x[i], direct.entry_z[i]),
+                (line.entry[i], line.entry_x[i].raw(), line.entry_z[i].raw()),
+                (direct.entry[i], direct.entry_x[i].raw(), direct.entry_z[i].raw()),
                 "line {number}, column {i}, exponent {}",
                 divider.ratio_x.exponent
             );

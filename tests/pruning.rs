@@ -5,7 +5,6 @@ mod support;
 use glam::{DVec2, DVec3};
 use support::{assert_same, both, builtin, count, drawn, machine, map, over, terrain};
 use terraline::engine::{FixedWorld, InFixedWorld};
-use terraline::fast::enter::Enterable;
 use terraline::frame::Hit;
 use terraline::plan::Plan;
 use terraline::plan::units::{UnitPlan, units};
@@ -202,7 +201,7 @@ fn described(scene: &Scene, plan: &Plan) -> Vec<UnitPlan> {
     struct Describe<'a>(&'a Scene, &'a Plan);
     impl InFixedWorld for Describe<'_> {
         type Output = Vec<UnitPlan>;
-        fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+        fn run<W: Complete>(self, world: W) -> Self::Output {
             units(self.1, self.0, &world)
         }
     }

@@ -1,7 +1,7 @@
 //! The skip pyramid against a maximum over its definition's window.
 
 use proptest::prelude::*;
-use terraline::setup::maxima::{Maxima, NOTHING};
+use terraline::fast::maxima::{Maxima, NOTHING};
 use terraline::unit::height_memory::{Edge, HeightMemory};
 use terraline::unit::pyramid::{Pyramid, cell_maxima};
 
@@ -11,17 +11,17 @@ const EDGES: [Edge; 3] = [Edge::Ends, Edge::Clamps, Edge::Wraps];
 struct Map {
     columns: i32,
     rows: i32,
-    nodes: Vec<i32>,
+    nodes: Vec<i16>,
 }
 
 impl Map {
-    fn at(&self, i: i32, j: i32) -> i32 {
+    fn at(&self, i: i32, j: i32) -> i16 {
         self.nodes[(j * self.columns + i) as usize]
     }
 
     /// The highest of the nodes whose indices lie in two windows; what lies beyond the map is as
     /// the edge says. `None` where the windows hold no node.
-    fn highest(&self, x: (i32, i32), z: (i32, i32), edge: Edge) -> Option<i32> {
+    fn highest(&self, x: (i32, i32), z: (i32, i32), edge: Edge) -> Option<i16> {
         let rows = indices(z, self.rows, edge);
         indices(x, self.columns, edge)
             .iter()
@@ -54,7 +54,7 @@ fn reaches_a_cell(block: i32, level: u32, nodes: i32) -> bool {
 }
 
 /// The highest node of a box of cells by looking at all of them; `None` where it holds none.
-fn highest_of_box(map: &Map, x: (i64, i64), z: (i64, i64), edge: Edge, r: i32) -> Option<i32> {
+fn highest_of_box(map: &Map, x: (i64, i64), z: (i64, i64), edge: Edge, r: i32) -> Option<i16> {
     let nodes = |(first, last): (i64, i64), cells: i32| {
         let (first, last) = (first as i32, last as i32);
         let (first, last) =
@@ -70,9 +70,9 @@ fn map() -> impl Strategy<Value = Map> {
         let count = (columns * rows) as usize;
         // Few distinct heights in one kind of map, a single peak in another.
         let nodes = prop_oneof![
-            proptest::collection::vec(-1000..1000_i32, count),
-            proptest::collection::vec(-2..2_i32, count),
-            (0..count).prop_map(move |peak| (0..count).map(|i| i32::from(i == peak)).collect()),
+            proptest::collection::vec(-1000..1000_i16, count),
+            proptest::collection::vec(-2..2_i16, count),
+            (0..count).prop_map(move |peak| (0..count).map(|i| i16::from(i == peak)).collect()),
         ];
         nodes.prop_map(move |nodes| Map { columns, rows, nodes })
     })
@@ -153,7 +153,7 @@ proptest! {
     }
 
     #[test]
-    fn a_single_row_or_column_is_a_map_too(nodes in proptest::collection::vec(-9..9_i32, 1..=70)) {
+    fn a_single_row_or_column_is_a_map_too(nodes in proptest::collection::vec(-9..9_i16, 1..=70)) {
         let count = nodes.len() as i32;
         for (columns, rows) in [(1, count), (count, 1)] {
             let map = Map { columns, rows, nodes: nodes.clone() };
@@ -175,15 +175,15 @@ proptest! {
     ) {
         let edge = if ends { Edge::Ends } else { Edge::Clamps };
         prop_assume!(!ends || map.columns > 1 && map.rows > 1);
-        let nodes = map.nodes.iter().map(|&node| node as i16).collect();
-        let heights = HeightMemory::new(nodes, map.columns as usize, map.rows as usize, edge);
+        let (columns, rows) = (map.columns as usize, map.rows as usize);
+        let heights = HeightMemory::new(map.nodes.clone(), columns, rows, edge);
         let maxima = Maxima::new(&heights, r, 0);
         let (x, z) = ((x.0, x.0 + x.1), (z.0, z.0 + z.1));
-        let bound = i32::from(maxima.around(x, z));
+        let bound = maxima.around(x, z);
         let highest = highest_of_box(&map, x, z, edge, r);
         prop_assert!(Some(bound) >= highest, "{bound} around {x:?}, {z:?}, not {highest:?}");
         if ends && x.0 == x.1 && z.0 == z.1 {
-            prop_assert_eq!(bound, highest.unwrap_or(NOTHING.into()), "cell {}, {}", x.0, z.0);
+            prop_assert_eq!(bound, highest.unwrap_or(NOTHING), "cell {}, {}", x.0, z.0);
         }
     }
 
@@ -209,7 +209,7 @@ proptest! {
 
 #[test]
 fn far_blocks_have_no_bound_where_the_map_ends() {
-    let heights = HeightMemory::new(vec![5; 33 * 17], 33, 17, Edge::Ends);
+    let heights = HeightMemory::new(vec![5_i16; 33 * 17], 33, 17, Edge::Ends);
     let pyramid = Pyramid::new(&heights, 1);
     for level in 0..=pyramid.top() {
         let size = 1 << level;

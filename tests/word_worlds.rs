@@ -14,9 +14,13 @@ mod stock_is_sweep;
 #[path = "word_worlds/tally.rs"]
 mod tally;
 
+use std::sync::LazyLock;
+
 use proptest::prelude::*;
 use terraline::word::sweep::{SweepFormat, SweepWord};
-use terraline::word::{Load, Overflow, Register, Rounding, Site, Word};
+use terraline::word::{
+    Cell, Load, Overflow, Readout, Register, Rounding, Site, Table, Word, real::RealWord,
+};
 
 fn format(width: u32, point: u32, rounding: Rounding, overflow: Overflow) -> SweepFormat {
     SweepFormat { width: width as u8, point: point as u8, rounding, overflow, seed: 7 }
@@ -24,6 +28,19 @@ fn format(width: u32, point: u32, rounding: Rounding, overflow: Overflow) -> Swe
 
 fn site() -> Site {
     Site { register: Register::Surface, line: 3, column: 5, operation: 2 }
+}
+
+/// The entry that an argument reads of a table whose entries are their own addresses.
+fn entry_of(argument: impl Cell, log2: u32) -> i128 {
+    static TABLES: LazyLock<Vec<Table<RealWord>>> = LazyLock::new(|| {
+        let number = |at: i32| RealWord::load(at.into(), ()).expect("a number");
+        (0..=16).map(|log2| Table::new(log2, (0..=1 << log2).map(number).collect())).collect()
+    });
+    let table = &TABLES[log2 as usize];
+    let entry = argument.look_up(table, site()).value();
+    let both = argument.look_up_mirrored([table], site()).map(|both| both.map(Readout::value));
+    assert_eq!(both, [[entry, f64::from(1 << log2) - entry]]);
+    entry as i128
 }
 
 /// The word with these bits: put together in two parts, since `f64` does not hold 64.

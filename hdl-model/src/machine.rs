@@ -289,13 +289,14 @@ fn load<W: Complete>(rtl: &mut Model, setup: &Setup<W>) {
     }
     if let Back::Terrain(units) = &setup.back {
         if let Some(rom) = &units.interpolator.rom {
-            for entry in 0..=1_usize << rom.log2() {
-                put(WEIGHTS, entry, raw(rom.weight(entry)) as u64);
-                put(SLOPES, entry, raw(rom.slope(entry)) as u64);
+            for (space, table) in [(WEIGHTS, rom.weights()), (SLOPES, rom.slopes())] {
+                for (entry, &word) in table.entries().iter().enumerate() {
+                    put(space, entry, raw(word) as u64);
+                }
             }
         }
         if let Some(light) = &units.shader.light {
-            for (entry, &root) in light.rsqrt.iter().enumerate() {
+            for (entry, &root) in light.rsqrt.entries().iter().enumerate() {
                 put(RSQRT, entry, raw(root) as u64);
             }
         }

@@ -189,7 +189,7 @@ fn is_near_rounding<W: Stock>(checker: &Checker<W>, denominator: W::View, within
     let site = Site::pixel(0, 0);
     let contrast = checker.contrast(denominator, site);
     // Means may be half levels themselves.
-    let fades = contrast.sign() > 0 && contrast < checker.one;
+    let fades = contrast.is_positive(site) && contrast.is_below(checker.one, site);
     let mut channels = checker.mean.iter().zip(&checker.swing);
     fades
         && channels.any(|(&mean, &swing)| {

@@ -93,7 +93,7 @@ impl<W: Bits> Bench<W> {
         for entry in 0..=1 << rom.log2() {
             self.set("load_address", entry as i64);
             for (strobe, word) in
-                [("load_weight", rom.weight(entry)), ("load_slope", rom.slope(entry))]
+                [("load_weight", rom.weights().at(entry)), ("load_slope", rom.slopes().at(entry))]
             {
                 self.set("load_data", raw(word));
                 self.set(strobe, 1);
@@ -106,7 +106,7 @@ impl<W: Bits> Bench<W> {
     fn expected(&self, token: Token) -> Answer {
         let (x, z) = (<W as Bits>::ground(token.x), <W as Bits>::ground(token.z));
         let site = Site::pixel(0, 0);
-        let exists = self.emulator.contains(x, z);
+        let exists = self.emulator.contains(x, z, site);
         let surface = raw(self.emulator.height(x, z, site));
         let mut slopes = [0; 2];
         if self.slopes {

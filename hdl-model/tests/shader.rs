@@ -25,7 +25,7 @@ use terraline::unit::pixel::Pixel;
 use terraline::unit::ramp::Ramp;
 use terraline::unit::shader::Shader;
 use terraline::word::stock::{Narrow, Wide};
-use terraline::word::{Cell, Lane, Register};
+use terraline::word::{Cell, Lane, Register, Table};
 use terraline_hdl::Model;
 
 /// Entries per unit of the table, as a power of two.
@@ -49,7 +49,7 @@ fn load_light<W: Stock>(rtl: &mut Model, light: Option<&Light<W>>, strobe: &str)
     let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
     set("lit", light.is_some().into());
     if let Some(light) = light {
-        assert_eq!(light.rsqrt_log2, RSQRT_LOG2);
+        assert_eq!(light.rsqrt.log2(), RSQRT_LOG2);
         for (name, toward) in ["toward_x", "toward_y", "toward_z"].into_iter().zip(light.toward) {
             set(name, bits(toward));
         }
@@ -192,8 +192,7 @@ fn hostile_shader<W: Stock>(world: W, random: &mut Random) -> Shader<W> {
         toward: std::array::from_fn(|_| word(toward(random))),
         ambient: word(ambient),
         one: word(one),
-        rsqrt: Arc::new(rsqrt),
-        rsqrt_log2: RSQRT_LOG2,
+        rsqrt: Arc::new(Table::new(RSQRT_LOG2, rsqrt)),
         normal_format: world.tone(Register::Normal),
     };
     let color = |random: &mut Random| {

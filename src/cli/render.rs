@@ -180,7 +180,7 @@ pub struct Units<'a> {
 
 impl InFixedWorld for Units<'_> {
     type Output = Vec<UnitPlan>;
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+    fn run<W: Complete>(self, world: W) -> Self::Output {
         units(&self.planned.plan, &self.planned.scene, &world)
     }
 }

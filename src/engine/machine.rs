@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 use super::list::Engine;
-use super::memories::{Memories, SetUpTime};
+use super::memories::{Memories, Ready, SetUpTime};
 use super::world::FixedWorld;
 use crate::oracle::Oracle;
 use crate::plan::{Ground, Plan};
@@ -23,25 +23,24 @@ pub struct Machine<'a> {
     world: FixedWorld,
     memories: Memories,
     pub(super) fixed: Fixed,
-    time: SetUpTime,
-    real: OnceLock<(Setup<Real>, SetUpTime)>,
+    real: OnceLock<Ready<Real>>,
     oracle: OnceLock<(Oracle, SetUpTime)>,
 }
 
 /// The set-up in its world.
 pub(super) enum Fixed {
-    Narrow(Setup<Narrow>),
-    Wide(Setup<Wide>),
-    Sweep(Box<Setup<Sweep>>),
+    Narrow(Ready<Narrow>),
+    Wide(Ready<Wide>),
+    Sweep(Box<Ready<Sweep>>),
 }
 
 /// The same code for each world that a set-up may be in.
 macro_rules! in_fixed {
-    ($fixed:expr, $setup:ident => $work:expr) => {
+    ($fixed:expr, $ready:ident => $work:expr) => {
         match $fixed {
-            $crate::engine::machine::Fixed::Narrow($setup) => $work,
-            $crate::engine::machine::Fixed::Wide($setup) => $work,
-            $crate::engine::machine::Fixed::Sweep($setup) => $work,
+            $crate::engine::machine::Fixed::Narrow($ready) => $work,
+            $crate::engine::machine::Fixed::Wide($ready) => $work,
+            $crate::engine::machine::Fixed::Sweep($ready) => $work,
         }
     };
 }
@@ -75,22 +74,13 @@ impl<'a> Machine<'a> {
         plan: &'a Plan,
         memories: &Memories,
     ) -> Result<Self, SetupError> {
-        let (fixed, time) = match world {
-            FixedWorld::Narrow(world) => {
-                let (setup, time) = memories.set_up_timed(world, scene, plan)?;
-                (Fixed::Narrow(setup), time)
-            }
-            FixedWorld::Wide(world) => {
-                let (setup, time) = memories.set_up_timed(world, scene, plan)?;
-                (Fixed::Wide(setup), time)
-            }
-            FixedWorld::Sweep(world) => {
-                let (setup, time) = memories.set_up_timed(world, scene, plan)?;
-                (Fixed::Sweep(Box::new(setup)), time)
-            }
+        let fixed = match world {
+            FixedWorld::Narrow(world) => Fixed::Narrow(memories.load(world, scene, plan)?),
+            FixedWorld::Wide(world) => Fixed::Wide(memories.load(world, scene, plan)?),
+            FixedWorld::Sweep(world) => Fixed::Sweep(Box::new(memories.load(world, scene, plan)?)),
         };
         let (memories, real, oracle) = (memories.clone(), OnceLock::new(), OnceLock::new());
-        Ok(Self { scene, plan, world, memories, fixed, time, real, oracle })
+        Ok(Self { scene, plan, world, memories, fixed, real, oracle })
     }
 
     /// Its scene.
@@ -113,7 +103,7 @@ impl<'a> Machine<'a> {
 
     /// Runs generic work on the set-up in the fixed-point world.
     pub fn run<J: WithSetup>(&self, work: J) -> J::Output {
-        in_fixed!(&self.fixed, setup => work.run(setup))
+        in_fixed!(&self.fixed, ready => work.run(&ready.setup))
     }
 
     /// The same units in f64.
@@ -121,14 +111,14 @@ impl<'a> Machine<'a> {
     /// # Errors
     /// If the eye is under the ground there.
     pub fn real(&self) -> Result<&Setup<Real>, SetupError> {
-        Ok(&self.timed_real()?.0)
+        Ok(&self.ready_real()?.setup)
     }
 
-    fn timed_real(&self) -> Result<&(Setup<Real>, SetUpTime), SetupError> {
+    fn ready_real(&self) -> Result<&Ready<Real>, SetupError> {
         if let Some(real) = self.real.get() {
             return Ok(real);
         }
-        let real = self.memories.set_up_timed(Real, self.scene, self.plan)?;
+        let real = self.memories.load(Real, self.scene, self.plan)?;
         Ok(self.real.get_or_init(|| real))
     }
 
@@ -156,8 +146,11 @@ impl<'a> Machine<'a> {
     /// If it cannot be set up.
     pub fn set_up_time(&self, engine: Engine) -> Result<SetUpTime, SetupError> {
         Ok(match engine {
-            Engine::Processor | Engine::Fast => self.time,
-            Engine::Real => self.timed_real()?.1,
+            Engine::Processor => in_fixed!(&self.fixed, ready => ready.time()),
+            Engine::Fast => {
+                in_fixed!(&self.fixed, ready => ready.fast_time(self.scene, self.plan))
+            }
+            Engine::Real => self.ready_real()?.time(),
             Engine::Oracle => self.timed_oracle().1,
         })
     }

@@ -1,13 +1,15 @@
 //! The keeper of memories: heights, pyramid and tables are loaded once, coefficients every frame.
 
 use std::any::Any;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
+use crate::fast::enter::Enterable;
+use crate::fast;
 use crate::plan::{Ground, Plan};
 use crate::scene::Scene;
 use crate::setup::{Memory, Setup, SetupError};
-use crate::word::Complete;
+use crate::word::{Complete, World};
 
 /// Memories of one surface that were loaded before, the latest used last. They are kept by what
 /// the machine's choice may change (world, kernel, plan), not by the map: one keeper serves one
@@ -30,6 +32,52 @@ pub struct SetUpTime {
     pub coefficients: Duration,
 }
 
+/// What is loaded once per map in a world.
+struct Loaded<W: World> {
+    memory: Option<Memory<W>>,
+    /// The fast engine's own copy, made when it first draws, and how long that took.
+    map: OnceLock<(Option<fast::Map<W>>, Duration)>,
+}
+
+/// A set-up in a world, with what was loaded for it.
+pub struct Ready<W: World> {
+    /// The registers of one frame.
+    pub setup: Setup<W>,
+    loaded: Arc<Loaded<W>>,
+    time: SetUpTime,
+}
+
+impl<W: World> Ready<W> {
+    /// How long it took, without the fast engine's map.
+    #[must_use]
+    pub fn time(&self) -> SetUpTime {
+        self.time
+    }
+}
+
+impl<W: Enterable> Ready<W> {
+    /// The map as the fast engine reads it, made now if it has not drawn before; `None` where it
+    /// draws ray by ray.
+    pub fn map(&self, scene: &Scene, plan: &Plan) -> Option<&fast::Map<W>> {
+        self.timed_map(scene, plan).0.as_ref()
+    }
+
+    /// How long the set-up took for the fast engine.
+    pub(super) fn fast_time(&self, scene: &Scene, plan: &Plan) -> SetUpTime {
+        let map = self.timed_map(scene, plan).1;
+        SetUpTime { memories: self.time.memories + map, ..self.time }
+    }
+
+    fn timed_map(&self, scene: &Scene, plan: &Plan) -> &(Option<fast::Map<W>>, Duration) {
+        self.loaded.map.get_or_init(|| {
+            let start = Instant::now();
+            let memory = self.loaded.memory.as_ref();
+            let map = fast::Map::new(&self.setup.world, scene, plan, memory);
+            (map, start.elapsed())
+        })
+    }
+}
+
 impl Memories {
     /// Sets up a scene in a world, from a memory that was kept or is loaded and kept from now on.
     ///
@@ -41,21 +89,25 @@ impl Memories {
         scene: &Scene,
         plan: &Plan,
     ) -> Result<Setup<W>, SetupError> {
-        Ok(self.set_up_timed(world, scene, plan)?.0)
+        Ok(self.load(world, scene, plan)?.setup)
     }
 
-    /// The same, and how long it took.
-    pub(super) fn set_up_timed<W: Complete>(
+    /// The same, with what it was loaded from.
+    ///
+    /// # Errors
+    /// As [`Memories::set_up`].
+    pub fn load<W: Complete>(
         &self,
         world: W,
         scene: &Scene,
         plan: &Plan,
-    ) -> Result<(Setup<W>, SetUpTime), SetupError> {
+    ) -> Result<Ready<W>, SetupError> {
         let start = Instant::now();
-        let memory = self.get(world, scene, plan)?;
+        let loaded = self.get(world, scene, plan)?;
         let memories = start.elapsed();
-        let setup = Setup::new(world, scene, plan, memory.as_ref().as_ref())?;
-        Ok((setup, SetUpTime { memories, coefficients: start.elapsed() - memories }))
+        let setup = Setup::new(world, scene, plan, loaded.memory.as_ref())?;
+        let time = SetUpTime { memories, coefficients: start.elapsed() - memories };
+        Ok(Ready { setup, loaded, time })
     }
 
     fn get<W: Complete>(
@@ -63,7 +115,7 @@ impl Memories {
         world: W,
         scene: &Scene,
         plan: &Plan,
-    ) -> Result<Arc<Option<Memory<W>>>, SetupError> {
+    ) -> Result<Arc<Loaded<W>>, SetupError> {
         let scale = match &plan.ground {
             Ground::Terrain(walk) => Some(walk.scale),
             Ground::Plane(_) => None,
@@ -81,19 +133,20 @@ impl Memories {
             let mut kept = kept();
             if let Some(at) = kept.iter().position(|(known, _)| *known == key) {
                 let latest = kept.remove(at);
-                let memory = Arc::downcast(Arc::clone(&latest.1));
+                let loaded = Arc::downcast(Arc::clone(&latest.1));
                 kept.push(latest);
-                if let Ok(memory) = memory {
-                    return Ok(memory);
+                if let Ok(loaded) = loaded {
+                    return Ok(loaded);
                 }
             }
         }
-        let memory = Arc::new(Memory::new(&world, scene, plan)?);
+        let memory = Memory::new(&world, scene, plan)?;
+        let loaded = Arc::new(Loaded { memory, map: OnceLock::new() });
         let mut kept = kept();
         if kept.len() >= KEPT {
             kept.remove(0);
         }
-        kept.push((key, Arc::clone(&memory) as Arc<dyn Any + Send + Sync>));
-        Ok(memory)
+        kept.push((key, Arc::clone(&loaded) as Arc<dyn Any + Send + Sync>));
+        Ok(loaded)
     }
 }

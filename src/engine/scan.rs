@@ -5,6 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::list::Engine;
 use super::machine::{Machine, in_fixed};
+use super::memories::Ready;
 use super::overflows::Overflows;
 use crate::clock::{Chain, Clock};
 use crate::fast::{self, enter::Enterable};
@@ -107,10 +108,10 @@ impl Machine<'_> {
         let watched = self.world().can_overflow();
         Ok(match engine {
             Engine::Processor => {
-                in_fixed!(&self.fixed, setup => self.processor(setup, lines, wanted, watched))
+                in_fixed!(&self.fixed, ready => self.processor(&ready.setup, lines, wanted, watched))
             }
             Engine::Fast => {
-                in_fixed!(&self.fixed, setup => self.fast(setup, lines, wanted, watched))
+                in_fixed!(&self.fixed, ready => self.fast(ready, lines, wanted, watched))
             }
             Engine::Real => self.processor(self.real()?, lines, wanted, false),
             Engine::Oracle => {
@@ -130,20 +131,22 @@ impl Machine<'_> {
         Ok(self.scan(engine, Wanted { buffers, ..Wanted::default() })?.finish().frame)
     }
 
-    fn fast<'a, W: Complete + Enterable>(
+    fn fast<'a, W: Enterable>(
         &'a self,
-        setup: &'a Setup<W>,
+        ready: &'a Ready<W>,
         lines: Range<u32>,
         wanted: Wanted,
         watched: bool,
     ) -> Scan<'a> {
+        let map = ready.map(self.scene, self.plan);
+        let source = fast::Source { setup: &ready.setup, map, plan: self.plan };
         Scan::new(lines, move |lines, stop| {
             let overflows = Mutex::new(Overflows::default());
             let inspect = |line: &Line<W>| {
                 overflows.lock().unwrap_or_else(PoisonError::into_inner).inspect(line);
             };
             let look: &(dyn Fn(&Line<W>) + Sync) = if watched { &inspect } else { &|_| {} };
-            let frame = fast::draw(setup, self.plan, lines, wanted.buffers, look, stop)?;
+            let frame = fast::draw(source, lines, wanted.buffers, look, stop)?;
             let overflows = overflows.into_inner().unwrap_or_else(PoisonError::into_inner);
             Some(Band { frame, overflows, ..Band::default() })
         })

@@ -64,7 +64,7 @@ impl Beam {
     /// So many samples on, every sample of every ray is clear.
     #[inline(always)]
     fn clear<W: Packed, S: Simd>(&self, land: &Land<'_, W, S>) -> u32 {
-        let (stepper, maxima) = (land.stepper, &land.relief.maxima);
+        let (stepper, maxima) = (land.stepper, &land.map.maxima);
         let point = W::Words::<S>::POINT;
         // Beside the map, a ray under its base is over: a beam does not pass there.
         let base = if stepper.sides { stepper.base.int().into() } else { i64::MIN };

@@ -5,7 +5,7 @@
 
 use fearless_simd::Level;
 
-use super::{on_vectors, singly};
+use super::{Map, on_vectors, singly};
 use crate::setup::Setup;
 use crate::unit::Line;
 use crate::unit::projector::{LineStart, Linear, Projector};
@@ -18,25 +18,50 @@ use crate::word::{Complete, Enter, World};
 /// Its lines are drawn by a method without type parameters, so that the vectorised code of each
 /// world is compiled once, in this library.
 pub trait Enterable: Complete + World<View: Enter> {
+    /// Whether its words are plain integers, whose rays walk by packets.
+    const PACKED: bool;
+
     /// Draws a few neighbouring lines from `first` on, on wires that hold all columns, at a SIMD
     /// level.
-    fn draw_group(level: Level, setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]);
+    fn draw_group(
+        level: Level,
+        setup: &Setup<Self>,
+        map: Option<&Map<Self>>,
+        first: u32,
+        lines: &mut [Line<Self>],
+    );
 }
 
-impl Enterable for Narrow {
-    fn draw_group(level: Level, setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
-        on_vectors(level, setup, first, lines);
-    }
+macro_rules! packed {
+    ($($world:ty),*) => {
+        $(impl Enterable for $world {
+            const PACKED: bool = true;
+
+            fn draw_group(
+                level: Level,
+                setup: &Setup<Self>,
+                map: Option<&Map<Self>>,
+                first: u32,
+                lines: &mut [Line<Self>],
+            ) {
+                on_vectors(level, setup, map, first, lines);
+            }
+        })*
+    };
 }
 
-impl Enterable for Wide {
-    fn draw_group(level: Level, setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
-        on_vectors(level, setup, first, lines);
-    }
-}
+packed! { Narrow, Wide }
 
 impl Enterable for Sweep {
-    fn draw_group(_: Level, setup: &Setup<Self>, first: u32, lines: &mut [Line<Self>]) {
+    const PACKED: bool = false;
+
+    fn draw_group(
+        _: Level,
+        setup: &Setup<Self>,
+        _: Option<&Map<Self>>,
+        first: u32,
+        lines: &mut [Line<Self>],
+    ) {
         singly(setup, first, lines);
     }
 }

@@ -4,8 +4,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, u32x16};
 
 use super::land::Land;
+use super::map::MaskedTable;
 use super::words::{LANES, Packed, Words, lanes};
-use crate::setup::relief::Table;
 use crate::unit::interpolator::Form;
 use crate::unit::stepper::SurfaceUnit;
 use crate::word::{Lane as _, Site};
@@ -16,7 +16,7 @@ pub type Nodes<W, S> = [<W as Packed>::Words<S>; 4];
 /// Loads the nodes of cells; rays that are not asked for may stand anywhere.
 #[inline(always)]
 pub fn nodes<W: Packed, S: Simd>(land: &Land<'_, W, S>, i: i32x16<S>, j: i32x16<S>) -> Nodes<W, S> {
-    let cells = &land.relief.cells;
+    let cells = &land.map.cells;
     let (last_i, last_j) = cells.last;
     let (i, j) = (i.max(-1).min(last_i) + 1, j.max(-1).min(last_j) + 1);
     let addresses = (j * cells.stride + i).bitcast::<u32x16<S>>().to_array();
@@ -62,9 +62,9 @@ pub fn entries<W: Packed, S: Simd>(
     land: &Land<'_, W, S>,
     fraction: i32x16<S>,
 ) -> Option<[i32; LANES]> {
-    let places = W::Words::<S>::POINT - land.relief.weights.as_ref()?.log2;
+    let places = W::Words::<S>::POINT - land.map.weights.as_ref()?.log2;
     let nearest = (fraction + (1 << (places - 1))) >> places;
-    Some((nearest & Table::MASK).to_array())
+    Some((nearest & MaskedTable::MASK).to_array())
 }
 
 /// Weights of the lower nodes of an axis: `Interpolator::weight`.
@@ -75,7 +75,7 @@ pub fn weight<W: Packed, S: Simd>(
     entries: Option<&[i32; LANES]>,
 ) -> i32x16<S> {
     let hat = (1 << W::Words::<S>::POINT) - fraction;
-    let (Some(weights), Some(entries)) = (&land.relief.weights, entries) else { return hat };
+    let (Some(weights), Some(entries)) = (&land.map.weights, entries) else { return hat };
     let kernel = lanes!(lane => weights.weight.at(entries[lane]));
     let kernel = i32x16::simd_from(land.simd, kernel);
     match land.surface.form {
@@ -91,7 +91,7 @@ pub fn slope<W: Packed, S: Simd>(
     entries: Option<&[i32; LANES]>,
 ) -> i32x16<S> {
     let one = i32x16::simd_from(land.simd, 1 << W::Words::<S>::POINT);
-    let (Some(weights), Some(entries)) = (&land.relief.weights, entries) else { return -one };
+    let (Some(weights), Some(entries)) = (&land.map.weights, entries) else { return -one };
     let kernel = lanes!(lane => weights.slope.at(entries[lane]));
     let kernel = i32x16::simd_from(land.simd, kernel);
     match land.surface.form {

@@ -3,8 +3,8 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
 
-use crate::setup::Relief;
-use crate::setup::maxima::NOTHING;
+use super::map::Map;
+use super::maxima::NOTHING;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::stepper::Stepper;
 use crate::word::World;
@@ -18,7 +18,7 @@ pub struct Land<'a, W: World, S> {
     /// The machine's interpolator.
     pub surface: &'a Interpolator<W>,
     /// The map.
-    pub relief: &'a Relief<W::Height>,
+    pub map: &'a Map<W>,
 }
 
 impl<W: World, S: Simd> Land<'_, W, S> {
@@ -26,7 +26,7 @@ impl<W: World, S: Simd> Land<'_, W, S> {
     #[inline(always)]
     pub fn inside(&self, i: i32x16<S>, j: i32x16<S>) -> mask32x16<S> {
         let finest = u32x16::simd_from(self.simd, 0);
-        let maxima = &self.relief.maxima;
+        let maxima = &self.map.maxima;
         let (addresses, held) = maxima.addresses(finest, i, j);
         if self.surface.heights.has_voids() {
             held & maxima.bounds(addresses).simd_ne(i32::from(NOTHING))

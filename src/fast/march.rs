@@ -12,26 +12,32 @@ use fearless_simd::prelude::*;
 use fearless_simd::u32x16;
 
 use super::land::Land;
+use super::map::Map;
+use super::maxima::NOTHING;
 use super::rays::{COLUMNS, PACKETS, Rays, Tile, any_walks};
 use super::words::{Packed, Words};
 use super::{beam, refine, shade, solve};
 use crate::setup::TerrainUnits;
-use crate::setup::maxima::NOTHING;
 use crate::unit::Line;
 use crate::unit::line::Work;
 use crate::word::Lane as _;
 
-/// Runs stepper, interpolator and shader on neighbouring lines: by packets where set-up has made
-/// maxima, else as the processor does.
+/// Runs stepper, interpolator and shader on neighbouring lines: by packets where they have a map,
+/// else as the processor does.
 #[inline(always)]
-pub fn draw<W: Packed, S: Simd>(simd: S, units: &TerrainUnits<W>, lines: &mut [Line<W>]) {
+pub fn draw<W: Packed, S: Simd>(
+    simd: S,
+    units: &TerrainUnits<W>,
+    map: Option<&Map<W>>,
+    lines: &mut [Line<W>],
+) {
     let (stepper, surface) = (&units.stepper, &units.interpolator);
-    let Some(relief) = units.relief.as_deref() else {
+    let Some(map) = map else {
         let units = units.units();
         lines.iter_mut().for_each(|line| units.iter().for_each(|unit| unit.run(line)));
         return;
     };
-    let land = Land { simd, stepper, surface, relief };
+    let land = Land { simd, stepper, surface, map };
     run(&land, lines);
     for line in lines {
         // Work is not counted here: trials are the processor's.
@@ -76,7 +82,7 @@ fn march<W: Packed, S: Simd>(land: &Land<'_, W, S>, tile: &mut Tile<W, S>) {
 /// One block of every walking ray: passed, or looked at more closely.
 #[inline(always)]
 fn trial<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
-    let (stepper, maxima) = (land.stepper, &land.relief.maxima);
+    let (stepper, maxima) = (land.stepper, &land.map.maxima);
     let [x, y, z] = rays.place;
     let [dx, dy, dz] = rays.step;
     let (level, walks) = (rays.level, rays.walks);

@@ -4,19 +4,22 @@
 //! A group of lines goes through projector and divider (`enter`), then tiles of four packets of
 //! sixteen rays each (`rays`) through `beam` (what all rays of a tile pass), `march` (blocks of the
 //! map), `solve` (single cells) and `refine` (the last step), then sixteen pixels at a time through
-//! `shade`. `words` says what vectors do (`narrow` and `wide` are they), `land` holds the map,
-//! `heights` the surface, `maxima` the blocks.
+//! `shade`. `map` is the engine's copy of the height map (`cells` its nodes, `maxima` its blocks),
+//! `land` what a packet needs to know, `heights` the surface, and `words` says what vectors do, which
+//! `narrow` and `wide` implement.
 //!
 //! Functions on vectors are `#[inline(always)]` and do without closures: what is not inlined into
 //! the function that `dispatch!` makes for a SIMD level is compiled without its instructions.
 #![deny(clippy::float_arithmetic)]
 
 mod beam;
+mod cells;
 pub mod enter;
 mod heights;
 mod land;
+mod map;
 mod march;
-mod maxima;
+pub mod maxima;
 mod narrow;
 mod rays;
 mod refine;
@@ -36,8 +39,9 @@ use crate::readout::Reader;
 use crate::setup::{Back, Setup};
 use crate::unit::divider::Method;
 use crate::unit::{Line, Unit as _};
-use crate::word::Complete;
+use crate::word::World;
 use enter::Enterable;
+pub use map::Map;
 use words::Packed;
 
 /// Lines that one task draws: enough to amortise its wires, few enough to balance two threads
@@ -63,9 +67,10 @@ pub fn levels() -> Vec<Level> {
 }
 
 /// Draws a few neighbouring lines by packets.
-fn on_vectors<W: Complete + Packed + Enterable>(
+fn on_vectors<W: Packed + Enterable>(
     level: Level,
     setup: &Setup<W>,
+    map: Option<&Map<W>>,
     first: u32,
     lines: &mut [Line<W>],
 ) {
@@ -74,7 +79,7 @@ fn on_vectors<W: Complete + Packed + Enterable>(
         || {
             project(setup, first, lines);
             match &setup.back {
-                Back::Terrain(units) => march::draw(simd, units, lines),
+                Back::Terrain(units) => march::draw(simd, units, map, lines),
                 Back::Plane(checker) => lines.iter_mut().for_each(|line| checker.run(line)),
             }
         }
@@ -101,39 +106,44 @@ fn project<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
     }
 }
 
+/// What the fast engine draws from.
+#[derive(Clone, Copy, Debug)]
+pub struct Source<'a, W: World> {
+    /// The machine's registers.
+    pub setup: &'a Setup<W>,
+    /// The map as packets read it; rays are drawn one by one without.
+    pub map: Option<&'a Map<W>>,
+    /// The plan of both.
+    pub plan: &'a Plan,
+}
+
 /// Draws lines of a frame on all threads and shows every finished one to `look`, in no particular
 /// order. `None` if `stop`, which is asked between lines, said so.
-pub fn draw<W: Complete + Enterable>(
-    setup: &Setup<W>,
-    plan: &Plan,
+pub fn draw<W: Enterable>(
+    source: Source<'_, W>,
     lines: Range<u32>,
     buffers: bool,
     look: &(dyn Fn(&Line<W>) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Option<Frame> {
-    draw_at(Level::new(), setup, plan, lines, buffers, look, stop)
+    draw_at(Level::new(), source, lines, buffers, look, stop)
 }
 
 /// A whole frame at one of [`levels`].
-pub fn render_at<W: Complete + Enterable>(
-    level: Level,
-    setup: &Setup<W>,
-    plan: &Plan,
-    buffers: bool,
-) -> Frame {
-    draw_at(level, setup, plan, 0..setup.lines, buffers, &|_| {}, &|| false)
+pub fn render_at<W: Enterable>(level: Level, source: Source<'_, W>, buffers: bool) -> Frame {
+    draw_at(level, source, 0..source.setup.lines, buffers, &|_| {}, &|| false)
         .unwrap_or_else(|| unreachable!("nobody stops it"))
 }
 
-fn draw_at<W: Complete + Enterable>(
+fn draw_at<W: Enterable>(
     level: Level,
-    setup: &Setup<W>,
-    plan: &Plan,
+    source: Source<'_, W>,
     lines: Range<u32>,
     buffers: bool,
     look: &(dyn Fn(&Line<W>) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Option<Frame> {
+    let Source { setup, map, plan } = source;
     let (columns, count) = (setup.columns as usize, lines.len());
     let mut color = vec![[0; 3]; columns * count];
     let mut hit = vec![Hit::Sky; columns * count];
@@ -157,7 +167,7 @@ fn draw_at<W: Complete + Enterable>(
                     }
                     let wires = &mut wires[..color.len() / columns];
                     let first = lines.start + (at * band + group * GROUP) as u32;
-                    W::draw_group(level, setup, first, wires);
+                    W::draw_group(level, setup, map, first, wires);
                     let rows = color.chunks_exact_mut(columns).zip(hit.chunks_exact_mut(columns));
                     for (line, (color, hit)) in wires.iter().zip(rows) {
                         look(line);

@@ -10,7 +10,7 @@ use crate::frame::Hit;
 use crate::unit::Line;
 use crate::unit::line::Entry;
 use crate::unit::stepper::Place;
-use crate::word::Lane;
+use crate::word::{Lane, Site};
 
 /// Neighbouring pixels of a line in a packet.
 pub const COLUMNS: usize = LANES / GROUP;
@@ -200,7 +200,9 @@ impl<W: Packed, S: Simd> Rays<W, S> {
             for lane in (0..LANES).filter(|&lane| used_up.test(lane)) {
                 let last = place::<W>(x[lane], y[lane], z[lane]);
                 let step = place::<W>(dx[lane], dy[lane], dz[lane]);
-                let over = stepper.is_over(last, stepper.heading(step));
+                // No stock world looks at the place of a decision.
+                let anywhere = Site::pixel(0, 0);
+                let over = stepper.is_over(last, stepper.heading(step, anywhere), anywhere);
                 self.outcome[lane] = if over { Hit::Sky } else { Hit::Far } as i32;
             }
         }

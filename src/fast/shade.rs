@@ -138,10 +138,11 @@ fn light<W: Packed, S: Simd>(
     let (x, z) = (slope_x.reduced(places), slope_z.reduced(places));
     let y = one >> (leading + 1).min(31);
     let square = two_products::<W, S>((x, x), (z, z)) + product::<W, S>(y, y);
-    let places = W::Words::<S>::POINT - light.rsqrt_log2;
-    let last = light.rsqrt.len() as i32 - 1;
+    let roots = light.rsqrt.entries();
+    let places = W::Words::<S>::POINT - light.rsqrt.log2();
+    let last = roots.len() as i32 - 1;
     let entries = ((square + (1 << (places - 1))) >> places).min(last).max(0).to_array();
-    let rsqrt = lanes!(lane => short::<W>(light.rsqrt[entries[lane] as usize].int()));
+    let rsqrt = lanes!(lane => short::<W>(roots[entries[lane] as usize].int()));
     let rsqrt = i32x16::simd_from(land.simd, rsqrt);
     let [light_x, light_y, light_z] = light.toward;
     let (light_x, light_z) = (word(land, light_x.int()), word(land, light_z.int()));

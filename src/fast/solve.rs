@@ -182,7 +182,7 @@ impl<S: Simd> Slack<S> {
     #[inline(always)]
     fn new<W: Packed>(land: &Land<'_, W, S>, rays: &Rays<W, S>, nodes: &Nodes<W, S>) -> Self {
         let [x, z] = rays.longest;
-        let straight = land.relief.bend;
+        let straight = land.map.bend;
         let up = |product: u64| ((product >> 24) + 1).min(u64::from(u32::MAX)) as u32;
         let twist = up(x * z * straight.slope_squared);
         let bend_x = up(x * x * straight.half_curvature);

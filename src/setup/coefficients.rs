@@ -280,7 +280,6 @@ pub(super) fn shader<W: Open>(
             ambient: tone(scene.light.ambient, Register::Shade)?,
             one: tone(1.0, Register::Shade)?,
             rsqrt: memory.rsqrt.clone(),
-            rsqrt_log2: memory.rsqrt_log2,
             normal_format: world.tone(Register::Normal),
         })
     } else {

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::kernel;
-use super::relief::Relief;
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{ALL_BITS, Ground, Plan};
 use crate::scene::{Deformation, Kernel, KernelShape, Outside, Scene, Surface, Terrain};
@@ -13,7 +12,7 @@ use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
 use crate::unit::kernel_rom::KernelRom;
 use crate::unit::pyramid::Pyramid;
-use crate::word::{Load, Open, Register, World};
+use crate::word::{Load, Open, Register, Table, World};
 
 /// Entries per unit of the reciprocal-square-root table, as a power of two.
 const RSQRT_LOG2: u32 = 10;
@@ -25,16 +24,12 @@ pub struct Memory<W: World> {
     pub heights: Arc<HeightMemory<W::Height>>,
     /// Bounds for skipping.
     pub pyramid: Option<Arc<Pyramid<W::Height>>>,
-    /// The map as the fast engine reads it; absent where the machine does not skip.
-    pub relief: Option<Arc<Relief<W::Height>>>,
     /// Kernel tables.
     pub rom: Option<Arc<KernelRom<W::Weight>>>,
     /// How nodes are weighted.
     pub form: Form,
-    /// Reciprocal square roots of t / 2^rsqrt_log2, for arguments in `[0, 4]`.
-    pub rsqrt: Arc<Vec<W::Tone>>,
-    /// Entries per unit of `rsqrt`, as a power of two.
-    pub rsqrt_log2: u32,
+    /// Reciprocal square roots, for arguments in `[0, 4]`.
+    pub rsqrt: Arc<Table<W::Tone>>,
 }
 
 /// Loads a value that the plan has proved to fit, or says which register it overflows.
@@ -64,9 +59,6 @@ impl<W: Open> Memory<W> {
             Form::Hat => None,
             _ => Some(Arc::new(kernel_rom(world, &scene.kernel)?)),
         };
-        let relief = plan.fitted.pyramid.then(|| {
-            Relief::new(world, &heights, rom.as_deref(), walk, &scene.kernel, form).map(Arc::new)
-        });
         let tone = world.tone(Register::Shade);
         let rsqrt = (0..=4_u32 << RSQRT_LOG2)
             .map(|t| {
@@ -79,11 +71,9 @@ impl<W: Open> Memory<W> {
         Ok(Some(Self {
             heights: Arc::new(heights),
             pyramid,
-            relief: relief.flatten(),
             rom,
             form,
-            rsqrt: Arc::new(rsqrt),
-            rsqrt_log2: RSQRT_LOG2,
+            rsqrt: Arc::new(Table::new(RSQRT_LOG2, rsqrt)),
         }))
     }
 }

@@ -1,15 +1,10 @@
 //! Set-up: the one door from `f64` to words. Coefficients are computed in `f64` once per frame and
 //! quantised into the registers of the units that the plan fits.
 
-pub mod cells;
 pub mod coefficients;
 pub mod kernel;
-pub mod maxima;
 pub mod memory;
-pub mod relief;
 pub mod table;
-
-use std::sync::Arc;
 
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanError};
@@ -22,12 +17,11 @@ use crate::unit::projector::Projector;
 use crate::unit::shader::Shader;
 use crate::unit::stepper::{Stepper, SurfaceUnit};
 use crate::unit::{Idle, Unit, interpolator, stepper};
-use crate::word::{Complete, Interpolating, Open, Readout, Register, Shading, Site, World};
+use crate::word::{
+    Complete, Interpolating, Open, Readout, Register, Shading, Site, Word as _, World,
+};
 
-pub use cells::Cells;
-pub use maxima::Maxima;
 pub use memory::Memory;
-pub use relief::Relief;
 
 /// Why registers cannot be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -65,8 +59,6 @@ pub struct TerrainUnits<W: World> {
     pub interpolator: Interpolator<W>,
     /// Shader.
     pub shader: Shader<W>,
-    /// The map as the fast engine reads it; absent where the machine does not skip.
-    pub relief: Option<Arc<Relief<W::Height>>>,
 }
 
 /// All registers of a machine, loaded.
@@ -121,12 +113,7 @@ impl<W: Complete> Setup<W> {
                 let stepper = coefficients::stepper(&world, scene, walk, memory, surface)?;
                 refuse_eye_under_ground(walk, &stepper)?;
                 let shader = coefficients::shader(&world, scene, plan, walk, memory)?;
-                Back::Terrain(Box::new(TerrainUnits {
-                    stepper,
-                    interpolator,
-                    shader,
-                    relief: memory.relief.clone(),
-                }))
+                Back::Terrain(Box::new(TerrainUnits { stepper, interpolator, shader }))
             }
             (Surface::Plane(plane), Ground::Plane(planned), _) => Back::Plane(
                 coefficients::checker(&world, scene, plan, plane, planned, &coefficients)?,
@@ -191,11 +178,12 @@ fn refuse_eye_under_ground<W: Interpolating + Open>(
     stepper: &Stepper<W>,
 ) -> Result<(), PlanError> {
     let (eye, surface) = (stepper.eye(), &stepper.surface);
-    if !surface.contains(eye.x, eye.z) {
+    let nowhere = Site::pixel(0, 0);
+    if !surface.contains(eye.x, eye.z, nowhere) {
         return Ok(());
     }
-    let ground = surface.height(eye.x, eye.z, Site::pixel(0, 0));
-    if eye.y < ground {
+    let ground = surface.height(eye.x, eye.z, nowhere);
+    if eye.y.is_below(ground, nowhere.at(Register::Surface)) {
         return Err(PlanError::EyeUnderGround {
             eye: walk.scale.to_scene(eye.y.value()),
             ground: walk.scale.to_scene(ground.value()),

@@ -61,31 +61,27 @@ impl<W: Shading> Checker<W> {
     /// view, 0 where it covers a whole one (equation 27).
     #[inline(always)]
     pub fn contrast(&self, denominator: W::View, site: Site) -> W::Tone {
-        if self.full_from.is_some_and(|full| denominator >= full) {
+        let here = site.at(Register::Denominator);
+        if self.full_from.is_some_and(|full| !denominator.is_below(full, here)) {
             return self.one;
         }
         let site = site.at(Register::Shade);
         let scaled: W::Tone = denominator.rescale(self.contrast_exponent, self.format, site);
         let scaled = scaled.multiply(self.contrast_gain, site.step(1));
-        let contrast = scaled - self.one;
-        if contrast > self.one {
-            self.one
-        } else if contrast.sign() > 0 {
-            contrast
-        } else {
-            W::Tone::zero(self.format)
-        }
+        let contrast = (scaled - self.one).lesser(self.one);
+        if contrast.is_positive(site) { contrast } else { W::Tone::zero(self.format) }
     }
 
     /// Colour of a square at a contrast.
     #[inline(always)]
     fn color(&self, contrast: W::Tone, odd: bool, site: Site) -> [u8; 3] {
         let site = site.at(Register::Channel);
-        Pixel::rounded(std::array::from_fn(|at| {
+        let color = std::array::from_fn(|at| {
             let (mean, swing) = (self.mean[at], self.swing[at]);
             let swing = swing.multiply(contrast, site.step(at as u32));
             if odd { mean - swing } else { mean + swing }
-        }))
+        });
+        Pixel::rounded(color, site)
     }
 }
 
@@ -102,7 +98,9 @@ impl<W: Shading> Unit<W> for Checker<W> {
                 Entry::Met => {
                     let site = Site::pixel(line.number, line.column[i]);
                     let contrast = self.contrast(line.denominator[i], site);
-                    let odd = (line.entry_x[i].cell() ^ line.entry_z[i].cell()) & 1 == 1;
+                    let x = line.entry_x[i].cell(site.at(Register::GroundX));
+                    let z = line.entry_z[i].cell(site.at(Register::GroundZ));
+                    let odd = (x ^ z) & 1 == 1;
                     (Hit::Surface, self.color(contrast, odd, site))
                 }
             };

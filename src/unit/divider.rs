@@ -95,7 +95,7 @@ impl<W: Dividing> Divider<W> {
         for i in 0..line.len() {
             let denominator = line.denominator[i];
             let site = Site::pixel(line.number, line.column[i]);
-            line.entry[i] = if denominator.sign() > 0 {
+            line.entry[i] = if denominator.is_positive(site.at(Register::Denominator)) {
                 let x =
                     divide(line.view_x[i], denominator, self.ratio_x, site.at(Register::GroundX));
                 let z =

@@ -139,45 +139,36 @@ impl<W: Interpolating> Interpolator<W> {
     /// Weight of the lower node of an axis at a fraction within the cell.
     #[inline(always)]
     pub fn weight(&self, fraction: W::Ground, site: Site) -> W::Weight {
+        let site = site.at(Register::Weight);
         match (&self.form, &self.rom) {
+            // Equation 16.
             (Form::Blend(shift), Some(rom)) => {
-                self.blend(fraction, rom.weight(rom.entry(fraction)), *shift, site)
+                let kernel = fraction.look_up(rom.weights(), site);
+                self.hat(fraction, site).toward(kernel, *shift)
             }
-            (Form::Plain, Some(rom)) => rom.weight(rom.entry(fraction)),
+            (Form::Plain, Some(rom)) => fraction.look_up(rom.weights(), site),
             _ => self.hat(fraction, site),
         }
     }
 
     /// The hat's weight.
     #[inline(always)]
-    pub fn hat(&self, fraction: W::Ground, site: Site) -> W::Weight {
-        self.one - fraction.rescale(0, self.weight_format, site.at(Register::Weight))
-    }
-
-    /// The hat's weight plus the kernel's difference to it shifted right (equation 16; thesis 2.59
-    /// to 2.61).
-    #[inline(always)]
-    pub fn blend(
-        &self,
-        fraction: W::Ground,
-        kernel: W::Weight,
-        shift: u32,
-        site: Site,
-    ) -> W::Weight {
-        let hat = self.hat(fraction, site);
-        hat + (kernel - hat).shift_toward_zero(shift)
+    fn hat(&self, fraction: W::Ground, site: Site) -> W::Weight {
+        self.one - fraction.rescale(0, self.weight_format, site)
     }
 
     /// Weight and slope of the lower node of an axis.
     #[inline(always)]
     pub fn arm(&self, fraction: W::Ground, site: Site) -> Arm<W::Weight> {
         let weight = self.weight(fraction, site);
+        let site = site.at(Register::WeightSlope);
         let slope = match (&self.form, &self.rom) {
             (Form::Blend(shift), Some(rom)) => {
                 // The hat falls with slope one.
-                (rom.slope(rom.entry(fraction)) + self.one).shift_toward_zero(*shift) - self.one
+                let slope = fraction.look_up(rom.slopes(), site);
+                (slope + self.one).shift_toward_zero(*shift) - self.one
             }
-            (Form::Plain, Some(rom)) => rom.slope(rom.entry(fraction)),
+            (Form::Plain, Some(rom)) => fraction.look_up(rom.slopes(), site),
             _ => -self.one,
         };
         Arm { weight, slope }
@@ -185,8 +176,8 @@ impl<W: Interpolating> Interpolator<W> {
 
     /// Nodes h1 (i, j), h2 (i, j+1), h3 (i+1, j), h4 (i+1, j+1) around a place.
     #[inline(always)]
-    pub fn nodes(&self, x: W::Ground, z: W::Ground) -> [W::Height; 4] {
-        let (i, j) = (x.cell(), z.cell());
+    pub fn nodes(&self, x: W::Ground, z: W::Ground, site: Site) -> [W::Height; 4] {
+        let [i, j] = cell::<W>(x, z, site);
         let heights = &*self.heights;
         let (west, east) = (heights.column(i), heights.column(i + 1));
         let (north, south) = (heights.row(j), heights.row(j + 1));
@@ -200,21 +191,24 @@ impl<W: Interpolating> Interpolator<W> {
 
     /// Whether a place is within the edges of the map.
     #[inline(always)]
-    pub fn is_on_map(&self, x: W::Ground, z: W::Ground) -> bool {
-        self.heights.contains(x.cell(), z.cell())
+    pub fn is_on_map(&self, x: W::Ground, z: W::Ground, site: Site) -> bool {
+        let [i, j] = cell::<W>(x, z, site);
+        self.heights.contains(i, j)
     }
 
     /// Whether a node that the surface at a place is made of has no data.
     #[inline(always)]
-    pub fn is_hole(&self, x: W::Ground, z: W::Ground) -> bool {
+    pub fn is_hole(&self, x: W::Ground, z: W::Ground, site: Site) -> bool {
         let heights = &*self.heights;
         if !heights.has_voids() {
             return false;
         }
         if self.form == Form::Stretch {
-            heights.any_void(x.nearest() - 1, z.nearest() - 1, 3)
+            let [i, j] = nearest::<W>(x, z, site);
+            heights.any_void(i - 1, j - 1, 3)
         } else {
-            heights.any_void(x.cell(), z.cell(), 2)
+            let [i, j] = cell::<W>(x, z, site);
+            heights.any_void(i, j, 2)
         }
     }
 
@@ -225,7 +219,7 @@ impl<W: Interpolating> Interpolator<W> {
         if self.form == Form::Stretch {
             return self.stretched(x, z, site);
         }
-        let [h1, h2, h3, h4] = self.nodes(x, z);
+        let [h1, h2, h3, h4] = self.nodes(x, z, site);
         let arm_x = self.arm(x.fraction(), site.step(site.operation ^ 1));
         let arm_z = self.arm(z.fraction(), site);
         let west = lerp(h2, h1, arm_z.weight, site);
@@ -234,13 +228,13 @@ impl<W: Interpolating> Interpolator<W> {
         let south = lerp(h4, h2, arm_x.weight, site.step(site.operation ^ 3));
         Sample {
             surface: lerp(east, west, arm_x.weight, site.step(site.operation ^ 4)),
-            slope_x: (east - west).multiply(arm_x.slope, site.at(Register::SlopeX)),
-            slope_z: (south - north).multiply(arm_z.slope, site.at(Register::SlopeZ)),
+            slope_x: east.multiply_difference(west, arm_x.slope, site.at(Register::SlopeX)),
+            slope_z: south.multiply_difference(north, arm_z.slope, site.at(Register::SlopeZ)),
         }
     }
 
     fn stretched(&self, x: W::Ground, z: W::Ground, site: Site) -> Sample<W> {
-        let stencil = self.stencil(x, z);
+        let stencil = self.stencil(x, z, site);
         let (wx, wz) = (stencil.weights_x, stencil.weights_z);
         let mut along_z = stencil.nodes[1];
         let mut slope_along_z = stencil.nodes[1];
@@ -259,9 +253,9 @@ impl<W: Interpolating> Interpolator<W> {
 
     /// The 3×3 nodes around a place, by column, and their weights.
     #[inline(always)]
-    pub fn stencil(&self, x: W::Ground, z: W::Ground) -> Stencil<W> {
+    pub fn stencil(&self, x: W::Ground, z: W::Ground, site: Site) -> Stencil<W> {
         let heights = &*self.heights;
-        let (i, j) = (x.nearest(), z.nearest());
+        let [i, j] = nearest::<W>(x, z, site);
         let rows = [heights.row(j - 1), heights.row(j), heights.row(j + 1)];
         let nodes = [i - 1, i, i + 1].map(|i| {
             let column = heights.column(i);
@@ -269,22 +263,19 @@ impl<W: Interpolating> Interpolator<W> {
         });
         Stencil {
             nodes,
-            weights_x: self.outer(x.fraction_from_midpoint()),
-            weights_z: self.outer(z.fraction_from_midpoint()),
+            weights_x: self.outer(x.fraction_from_midpoint(), site.step(site.operation ^ 1)),
+            weights_z: self.outer(z.fraction_from_midpoint(), site),
         }
     }
 
     /// Weights and slopes of the nodes before and after the nearest one.
     #[inline(always)]
-    fn outer(&self, from_midpoint: W::Ground) -> Outer<W::Weight> {
+    fn outer(&self, from_midpoint: W::Ground, site: Site) -> Outer<W::Weight> {
         match &self.rom {
             Some(rom) => {
-                let before = rom.entry(from_midpoint);
-                let after = rom.mirrored(before);
-                Outer {
-                    weights: [rom.weight(before), rom.weight(after)],
-                    slopes: [rom.slope(before), -rom.slope(after)],
-                }
+                let [weights, [before, after]] = from_midpoint
+                    .look_up_mirrored([rom.weights(), rom.slopes()], site.at(Register::Weight));
+                Outer { weights, slopes: [before, -after] }
             }
             // Set-up fits a ROM with every stretched kernel.
             None => Outer { weights: [self.one; 2], slopes: [self.one; 2] },
@@ -372,10 +363,22 @@ pub struct Outer<T> {
     pub slopes: [T; 2],
 }
 
-/// `from + (to − from)·weight`, one rounding.
+/// Indices of the cell that a place lies in.
+#[inline(always)]
+fn cell<W: World>(x: W::Ground, z: W::Ground, site: Site) -> [i32; 2] {
+    [x.cell(site.at(Register::GroundX)), z.cell(site.at(Register::GroundZ))]
+}
+
+/// Indices of the node nearest to a place.
+#[inline(always)]
+fn nearest<W: World>(x: W::Ground, z: W::Ground, site: Site) -> [i32; 2] {
+    [x.nearest(site.at(Register::GroundX)), z.nearest(site.at(Register::GroundZ))]
+}
+
+/// A lerp between heights.
 #[inline(always)]
 fn lerp<H: Multiply<T>, T: Word>(from: H, to: H, weight: T, site: Site) -> H {
-    from + (to - from).multiply(weight, site.at(Register::Surface))
+    from.lerp(to, weight, site.at(Register::Surface))
 }
 
 /// The height between nodes h1 to h4 (equation 14; thesis 2.51, 2.52).
@@ -395,26 +398,26 @@ pub fn mix<H: Multiply<T>, T: Word>(
 #[inline(always)]
 fn three<H: Multiply<T>, T: Word>(nodes: [H; 3], weights: [T; 2], site: Site) -> H {
     let [before, centre, after] = nodes;
-    centre + (before - centre).multiply_two(weights[0], after - centre, weights[1], site)
+    centre.lerp_two([before, after], weights, site)
 }
 
 /// The negated derivative of [`three`].
 #[inline(always)]
 fn slope<H: Multiply<T>, T: Word>(nodes: [H; 3], slopes: [T; 2], site: Site) -> H {
     let [before, centre, after] = nodes;
-    (centre - before).multiply_two(slopes[0], centre - after, slopes[1], site)
+    centre.multiply_differences([before, after], slopes, site)
 }
 
 impl<W: Interpolating> SurfaceUnit<W> for Interpolator<W> {
     #[inline(always)]
-    fn contains(&self, x: W::Ground, z: W::Ground) -> bool {
-        self.is_on_map(x, z) && !self.is_hole(x, z)
+    fn contains(&self, x: W::Ground, z: W::Ground, site: Site) -> bool {
+        self.is_on_map(x, z, site) && !self.is_hole(x, z, site)
     }
 
     #[inline(always)]
     fn height(&self, x: W::Ground, z: W::Ground, site: Site) -> W::Height {
         if self.form == Form::Stretch {
-            let stencil = self.stencil(x, z);
+            let stencil = self.stencil(x, z, site);
             let mut along_z = stencil.nodes[1];
             for (k, column) in stencil.nodes.iter().enumerate() {
                 let site = site.step(site.operation ^ k as u32).at(Register::Surface);
@@ -425,6 +428,6 @@ impl<W: Interpolating> SurfaceUnit<W> for Interpolator<W> {
         }
         let weight_z = self.weight(z.fraction(), site);
         let weight_x = self.weight(x.fraction(), site.step(site.operation ^ 1));
-        mix(self.nodes(x, z), weight_x, weight_z, site)
+        mix(self.nodes(x, z, site), weight_x, weight_z, site)
     }
 }

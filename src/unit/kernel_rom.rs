@@ -4,7 +4,7 @@
 //! nearest entry (one addition of half an entry), two read ports. *Never*: floored, which would
 //! double the error of a weight (equation 13).
 
-use crate::word::{Cell, Word};
+use crate::word::{Table, Word};
 
 /// Cycles from a place to the weights of its nodes: kernel ROM and blend. They pass beside the
 /// memory's own; one that is faster waits for them.
@@ -17,9 +17,8 @@ pub const LATENCY: u32 = 2;
 /// the node after it has the mirrored entry.
 #[derive(Clone, Debug)]
 pub struct KernelRom<T> {
-    log2: u32,
-    weight: Vec<T>,
-    slope: Vec<T>,
+    weights: Table<T>,
+    slopes: Table<T>,
 }
 
 impl<T: Word> KernelRom<T> {
@@ -27,38 +26,26 @@ impl<T: Word> KernelRom<T> {
     ///
     /// # Panics
     /// If a table has not 2^log2 + 1 entries.
-    pub fn new(log2: u32, weight: Vec<T>, slope: Vec<T>) -> Self {
+    pub fn new(log2: u32, weights: Vec<T>, slopes: Vec<T>) -> Self {
         let entries = (1 << log2) + 1;
-        assert!(weight.len() == entries && slope.len() == entries);
-        Self { log2, weight, slope }
+        assert!(weights.len() == entries && slopes.len() == entries);
+        Self { weights: Table::new(log2, weights), slopes: Table::new(log2, slopes) }
     }
 
     /// Entries per unit, as a power of two.
     pub fn log2(&self) -> u32 {
-        self.log2
+        self.weights.log2()
     }
 
-    /// The entry nearest to an argument in `[0, 1]`.
+    /// Weights.
     #[inline(always)]
-    pub fn entry(&self, argument: impl Cell) -> usize {
-        argument.entry(self.log2)
+    pub fn weights(&self) -> &Table<T> {
+        &self.weights
     }
 
-    /// The entry of one minus the argument.
+    /// Slopes.
     #[inline(always)]
-    pub fn mirrored(&self, entry: usize) -> usize {
-        self.weight.len() - 1 - entry
-    }
-
-    /// Weight at an entry.
-    #[inline(always)]
-    pub fn weight(&self, entry: usize) -> T {
-        self.weight[entry]
-    }
-
-    /// Slope at an entry.
-    #[inline(always)]
-    pub fn slope(&self, entry: usize) -> T {
-        self.slope[entry]
+    pub fn slopes(&self) -> &Table<T> {
+        &self.slopes
     }
 }

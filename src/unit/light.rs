@@ -17,7 +17,7 @@ use super::coefficient::{Bank, Coefficient as C};
 use super::line::{When, Wire, Work};
 use super::{Description, Line, Reads, Timing, Unit, shader};
 use crate::frame::Hit;
-use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Word, World};
+use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Table, Word, World};
 
 /// What the light is.
 pub const DESCRIPTION: Description = Description {
@@ -40,9 +40,7 @@ pub struct Light<W: World> {
     /// One.
     pub one: W::Tone,
     /// Reciprocal square roots of `t / 2^log2`, `0 ≤ t ≤ 4 · 2^log2`.
-    pub rsqrt: Arc<Vec<W::Tone>>,
-    /// Table entries per unit, as a power of two.
-    pub rsqrt_log2: u32,
+    pub rsqrt: Arc<Table<W::Tone>>,
     /// Format of the scaled normal.
     pub normal_format: <W::Tone as Word>::Format,
 }
@@ -53,20 +51,23 @@ impl<W: Shading> Light<W> {
     pub fn shade(&self, slope_x: W::Height, slope_z: W::Height, site: Site) -> W::Tone {
         let site = site.at(Register::Normal);
         // Slopes below one share the exponent of the vertical component, which is one.
-        let leading = slope_x.leading_one().max(slope_z.leading_one()).max(0);
+        let leading = slope_x
+            .leading_one(site.at(Register::SlopeX))
+            .max(slope_z.leading_one(site.at(Register::SlopeZ)))
+            .max(0);
         let exponent = -(leading + 1);
         let x = slope_x.rescale(exponent, self.normal_format, site);
         let z = slope_z.rescale(exponent, self.normal_format, site.step(1));
         let y = self.one.shift_floor((leading + 1) as u32);
         let square = x.multiply_two(x, z, z, site.step(4)) + y.multiply(y, site.step(5));
-        let entry = square.entry(self.rsqrt_log2).min(self.rsqrt.len() - 1);
-        let [light_x, light_y, light_z] = self.toward;
         let site = site.at(Register::Shade);
+        let rsqrt = square.look_up(&self.rsqrt, site);
+        let [light_x, light_y, light_z] = self.toward;
         let dot = x.multiply_two(light_x, z, light_z, site) + y.multiply(light_y, site.step(1));
-        if dot.sign() > 0 {
-            let shade = self.ambient + dot.multiply(self.rsqrt[entry], site.step(2));
+        if dot.is_positive(site) {
+            let shade = self.ambient + dot.multiply(rsqrt, site.step(2));
             // The table's rounding may lift full light above one by a bit.
-            if shade > self.one { self.one } else { shade }
+            shade.lesser(self.one)
         } else {
             self.ambient
         }

@@ -14,7 +14,7 @@ use super::coefficient::{Bank, Coefficient as C};
 use super::line::Wire;
 use super::{Description, Line, Timing, Unit, shader};
 use crate::frame::Hit;
-use crate::word::{Cell, Register, World};
+use crate::word::{Cell, Register, Site, World};
 
 /// What the pixel unit is.
 pub const DESCRIPTION: Description = Description {
@@ -52,8 +52,9 @@ impl Pixel {
 
     /// The nearest bytes of a colour, ties upward.
     #[inline(always)]
-    pub fn rounded<T: Cell>(color: [T; 3]) -> [u8; 3] {
-        color.map(|channel| channel.nearest().clamp(0, 255) as u8)
+    pub fn rounded<T: Cell>(color: [T; 3], site: Site) -> [u8; 3] {
+        let site = site.at(Register::Channel);
+        color.map(|channel| channel.nearest(site).clamp(0, 255) as u8)
     }
 }
 
@@ -64,8 +65,9 @@ impl<W: World> Unit<W> for Pixel {
 
     fn run(&self, line: &mut Line<W>) {
         for i in 0..line.len() {
+            let site = Site::pixel(line.number, line.column[i]);
             line.color[i] =
-                self.constant(line.hit[i]).unwrap_or_else(|| Self::rounded(line.lit[i]));
+                self.constant(line.hit[i]).unwrap_or_else(|| Self::rounded(line.lit[i], site));
         }
     }
 

@@ -160,7 +160,7 @@ impl<W: World> Unit<W> for Projector<W> {
 
 /// One accumulator along one line.
 fn accumulate<T: Word>(start: T, per_column: T, columns: &[u32], wire: &mut [T]) {
-    if per_column.sign() == 0 {
+    if per_column.is_exactly_zero() {
         // No adder is fitted for an increment of zero.
         wire.fill(start);
         return;

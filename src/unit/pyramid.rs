@@ -16,6 +16,28 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::height_memory::{Edge, HeightMemory};
+use crate::word::Word;
+
+/// What a block is bounded by: a word, or a height in the coarse steps of the fast engine.
+pub trait Bound: Copy + Send + Sync {
+    /// The higher of two.
+    #[must_use]
+    fn higher(self, other: Self) -> Self;
+}
+
+impl<T: Word> Bound for T {
+    #[inline(always)]
+    fn higher(self, other: Self) -> Self {
+        self.greater(other)
+    }
+}
+
+impl Bound for i16 {
+    #[inline(always)]
+    fn higher(self, other: Self) -> Self {
+        self.max(other)
+    }
+}
 
 /// Bounds of all levels, finest first.
 #[derive(Clone, Debug)]
@@ -77,7 +99,7 @@ impl Axis {
     }
 }
 
-impl<T: Copy + PartialOrd + Send + Sync> Pyramid<T> {
+impl<T: Bound> Pyramid<T> {
     /// The pyramid of a height memory for kernels of radius `1 + r` nodes, built by maxima of
     /// maxima. Levels go up to the first block that covers the map; where the map repeats, blocks
     /// stay within its size.
@@ -159,15 +181,8 @@ impl<T: Copy + PartialOrd + Send + Sync> Pyramid<T> {
     }
 }
 
-fn higher<T: Copy + PartialOrd>(a: T, b: T) -> T {
-    if b > a { b } else { a }
-}
-
 /// Per cell, the highest of nodes i−r ..= i+1+r and j−r ..= j+1+r.
-pub fn cell_maxima<T: Copy + PartialOrd + Send + Sync>(
-    heights: &HeightMemory<T>,
-    r: i32,
-) -> Vec<T> {
+pub fn cell_maxima<T: Bound>(heights: &HeightMemory<T>, r: i32) -> Vec<T> {
     let nodes = heights.nodes();
     let width = heights.columns() as usize;
     let mut out = vec![nodes[0]; nodes.len()];
@@ -183,7 +198,7 @@ pub fn cell_maxima<T: Copy + PartialOrd + Send + Sync>(
             raise(&mut out[inside.clone()], &tallest[offset_by(&inside, offset)]);
             // Columns whose neighbour is beyond the edge.
             for i in (0..inside.start).chain(inside.end..width) {
-                out[i] = higher(out[i], tallest[heights.column(i as i32 + offset)]);
+                out[i] = out[i].higher(tallest[heights.column(i as i32 + offset)]);
             }
         }
     });
@@ -191,10 +206,7 @@ pub fn cell_maxima<T: Copy + PartialOrd + Send + Sync>(
 }
 
 /// Column by column, the highest of some rows.
-fn highest_of<'a, T: Copy + PartialOrd + 'a>(
-    rows: impl IntoIterator<Item = &'a [T]>,
-    tallest: &mut Vec<T>,
-) {
+fn highest_of<'a, T: Bound + 'a>(rows: impl IntoIterator<Item = &'a [T]>, tallest: &mut Vec<T>) {
     tallest.clear();
     for row in rows {
         if tallest.is_empty() {
@@ -218,14 +230,14 @@ fn offset_by(range: &Range<usize>, offset: i32) -> Range<usize> {
 }
 
 /// Element by element, the higher of two rows.
-fn raise<T: Copy + PartialOrd>(row: &mut [T], by: &[T]) {
+fn raise<T: Bound>(row: &mut [T], by: &[T]) {
     for (bound, &other) in row.iter_mut().zip(by) {
-        *bound = higher(*bound, other);
+        *bound = bound.higher(other);
     }
 }
 
 /// Maxima of 2×2 blocks; the last one of an odd size stands alone.
-fn halve<T: Copy + PartialOrd + Send + Sync>(maxima: &[T], width: usize, height: usize) -> Vec<T> {
+fn halve<T: Bound>(maxima: &[T], width: usize, height: usize) -> Vec<T> {
     let half = width.div_ceil(2);
     let mut out = vec![maxima[0]; half * height.div_ceil(2)];
     out.par_chunks_exact_mut(half).zip(maxima.par_chunks(2 * width)).for_each(|(out, pair)| {
@@ -237,7 +249,7 @@ fn halve<T: Copy + PartialOrd + Send + Sync>(maxima: &[T], width: usize, height:
 
 /// The same for the first `width` columns and `height` rows of a grid whose rows are `stride`
 /// apart, into another one of that stride.
-pub fn halve_into<T: Copy + PartialOrd + Send + Sync>(
+pub fn halve_into<T: Bound>(
     maxima: &[T],
     stride: usize,
     (width, height): (usize, usize),
@@ -252,21 +264,15 @@ pub fn halve_into<T: Copy + PartialOrd + Send + Sync>(
 }
 
 /// Maxima of pairs of columns of two rows.
-fn halve_rows<T: Copy + PartialOrd>(above: &[T], below: &[T], out: &mut [T]) {
+fn halve_rows<T: Bound>(above: &[T], below: &[T], out: &mut [T]) {
     for (o, (a, b)) in out.iter_mut().zip(above.chunks(2).zip(below.chunks(2))) {
         let last = a.len() - 1;
-        *o = higher(higher(a[0], a[last]), higher(b[0], b[last]));
+        *o = a[0].higher(a[last]).higher(b[0].higher(b[last]));
     }
 }
 
 /// Appends the bounds of one level, made from its blocks' maxima.
-fn gather<T: Copy + PartialOrd + Send + Sync>(
-    maxima: &[T],
-    width: usize,
-    x: &Axis,
-    z: &Axis,
-    bounds: &mut Vec<T>,
-) {
+fn gather<T: Bound>(maxima: &[T], width: usize, x: &Axis, z: &Axis, bounds: &mut Vec<T>) {
     let stored = x.stored as usize;
     let from = bounds.len();
     bounds.resize(from + z.stored as usize * stored, maxima[0]);
@@ -279,10 +285,10 @@ fn gather<T: Copy + PartialOrd + Send + Sync>(
         let plain = x.edge != Edge::Wraps && width >= 3;
         let middle = if plain { lead..lead + width - 2 } else { 0..0 };
         for (o, w) in out[middle.clone()].iter_mut().zip(tallest.windows(3)) {
-            *o = higher(higher(w[0], w[1]), w[2]);
+            *o = w[0].higher(w[1]).higher(w[2]);
         }
         for i in (0..middle.start).chain(middle.end..stored) {
-            let reached = x.reach(i as i32).map(|b| tallest[b]).reduce(higher);
+            let reached = x.reach(i as i32).map(|b| tallest[b]).reduce(Bound::higher);
             out[i] = reached.unwrap_or(tallest[0]);
         }
     });

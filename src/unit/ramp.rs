@@ -12,7 +12,7 @@
 use super::coefficient::{Bank, Coefficient as C};
 use super::line::{When, Wire};
 use super::{Description, Line, Timing, Unit, shader};
-use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Word, World};
+use crate::word::{Multiply, Register, Rescale, Shading, Site, Word, World};
 
 /// What the ramp is.
 pub const DESCRIPTION: Description = Description {
@@ -53,19 +53,7 @@ impl<W: Shading> Ramp<W> {
     /// The colour there, channels in `0 ..= 255`.
     #[inline(always)]
     pub fn color(&self, place: W::Tone, site: Site) -> [W::Tone; 3] {
-        let last = self.segments.len() as i32 - 1;
-        let segment = place.cell().clamp(0, last);
-        // The end of the ramp is the end of its last segment.
-        let inside = if place.cell() > last { None } else { Some(place.fraction()) };
-        let segment = &self.segments[segment as usize];
-        std::array::from_fn(|at| {
-            let (start, rise) = segment[at];
-            let site = site.at(Register::Channel).step(8 + at as u32);
-            match inside {
-                Some(fraction) => start + rise.multiply(fraction, site),
-                None => start + rise,
-            }
-        })
+        W::Tone::piecewise_linear(&self.segments, place, site.at(Register::Channel).step(8))
     }
 }
 

@@ -81,7 +81,7 @@ pub const fn timing(reads: u32, void_bits: bool, memory_latency: u32) -> Timing 
 /// What the stepper asks of the interpolator.
 pub trait SurfaceUnit<W: World> {
     /// Whether the surface exists at a place: it is on the map and not in a hole.
-    fn contains(&self, x: W::Ground, z: W::Ground) -> bool;
+    fn contains(&self, x: W::Ground, z: W::Ground, site: Site) -> bool;
     /// Its height there.
     fn height(&self, x: W::Ground, z: W::Ground, site: Site) -> W::Height;
 }
@@ -165,6 +165,19 @@ impl<W: World> Place<W> {
         Self { x: self.x - step.x, y: self.y - step.y, z: self.z - step.z }
     }
 
+    /// Indices of the cell that it lies in.
+    #[inline(always)]
+    pub fn cell(self, site: Site) -> [i32; 2] {
+        [self.x.cell(site.at(Register::GroundX)), self.z.cell(site.at(Register::GroundZ))]
+    }
+
+    /// Whether it is under the surface, where that exists: a hit is strictly below.
+    #[inline(always)]
+    pub fn is_under(self, surface: &impl SurfaceUnit<W>, site: Site) -> bool {
+        let height = surface.height(self.x, self.z, site);
+        self.y.is_below(height, site.at(Register::Surface))
+    }
+
     /// A step halved so many times.
     #[inline(always)]
     #[must_use]
@@ -236,15 +249,18 @@ impl<W: World> Stepper<W> {
 
     /// Power of two that makes a step of a view vector (equation 20).
     #[inline(always)]
-    pub fn exponent(&self, x: W::View, y: W::View, z: W::View) -> i32 {
-        let leading = x.leading_one().max(y.leading_one()).max(z.leading_one());
+    pub fn exponent(&self, x: W::View, y: W::View, z: W::View, site: Site) -> i32 {
+        let leading = x
+            .leading_one(site.at(Register::ViewX))
+            .max(y.leading_one(site.at(Register::ViewY)))
+            .max(z.leading_one(site.at(Register::ViewZ)));
         -(leading + 1 + self.fineness as i32)
     }
 
     /// ΔP of a view vector (equation 20).
     #[inline(always)]
     pub fn step(&self, x: W::View, y: W::View, z: W::View, site: Site) -> Place<W> {
-        let exponent = self.exponent(x, y, z);
+        let exponent = self.exponent(x, y, z, site);
         Place {
             x: x.rescale_nearest(exponent, self.format_x, site.at(Register::DGroundX)),
             y: y.rescale_nearest(exponent, self.format_y, site.at(Register::DRayY)),
@@ -252,15 +268,18 @@ impl<W: World> Stepper<W> {
         }
     }
 
-    /// Halvings at a place (equation 22).
+    /// Bisection steps at a place (equation 22).
     #[inline(always)]
-    pub fn halvings_at(&self, place: Place<W>) -> u32 {
+    pub fn halvings_at(&self, place: Place<W>, site: Site) -> u32 {
         match self.halvings {
             HalvingRule::Fixed(times) => times,
             HalvingRule::Footprint { bias, cap } => {
                 let away = place.minus(self.eye());
-                let leading =
-                    away.x.leading_one().max(away.y.leading_one()).max(away.z.leading_one());
+                let leading = away
+                    .x
+                    .leading_one(site.at(Register::GroundX))
+                    .max(away.y.leading_one(site.at(Register::RayY)))
+                    .max(away.z.leading_one(site.at(Register::GroundZ)));
                 (bias - leading).clamp(0, cap as i32) as u32
             }
         }
@@ -274,14 +293,15 @@ impl<W: World> Stepper<W> {
         surface: &impl SurfaceUnit<W>,
         site: Site,
     ) -> Walk<W> {
-        let heading = self.heading(step);
+        let heading = self.heading(step, site);
         let mut work = Work::default();
         let mut place = start;
         let mut index = 0;
         // Rays from the eye start near the ground, those from the slab's top above it.
         let mut level = 0;
         loop {
-            if self.is_over(place, heading) {
+            let here = at_sample(site, index);
+            if self.is_over(place, heading, here) {
                 return Walk { hit: Hit::Sky, place, index, work };
             }
             if index >= self.last {
@@ -293,8 +313,12 @@ impl<W: World> Stepper<W> {
                 if jump <= self.last - index {
                     work.trials += 1;
                     let ahead = place.plus(step.doubled(level + self.fineness));
-                    let bound = pyramid.bound(level, place.x.cell(), place.z.cell());
-                    if bound.is_none_or(|bound| place.y >= bound && ahead.y >= bound) {
+                    let [i, j] = place.cell(here);
+                    let there = at_sample(site, index + jump);
+                    if pyramid.bound(level, i, j).is_none_or(|bound| {
+                        !place.y.is_below(bound, here.at(Register::Node))
+                            && !ahead.y.is_below(bound, there.at(Register::Node))
+                    }) {
                         place = ahead;
                         index += jump;
                         level = (level + 1).min(pyramid.top());
@@ -314,14 +338,14 @@ impl<W: World> Stepper<W> {
                 index += 1;
                 // Whether the surface exists there is known when the nodes have been read.
                 work.samples += 1;
-                if !surface.contains(place.x, place.z) {
-                    if self.is_over(place, heading) {
+                let here = at_sample(site, index);
+                if !surface.contains(place.x, place.z, here) {
+                    if self.is_over(place, heading, here) {
                         break;
                     }
                     continue;
                 }
-                let height = surface.height(place.x, place.z, site.step(index << 3));
-                if place.y < height {
+                if place.is_under(surface, here) {
                     return self.refine(place, step, surface, site, index, work);
                 }
             }
@@ -339,58 +363,64 @@ impl<W: World> Stepper<W> {
         mut work: Work,
     ) -> Walk<W> {
         work.hits = 1;
-        let times = self.halvings_at(hit);
+        let times = self.halvings_at(hit, at_sample(site, index));
         let (mut clear, mut met) = (hit.minus(step), hit);
         for halving in 1..=times {
             work.halvings += 1;
             let middle = clear.plus(step.halved(halving));
-            let site = site.step(1 << 30 | halving << 3);
-            let hits = surface.contains(middle.x, middle.z)
-                && middle.y < surface.height(middle.x, middle.z, site);
-            if hits {
+            let here = at_bisection(site, halving);
+            if surface.contains(middle.x, middle.z, here) && middle.is_under(surface, here) {
                 met = middle;
             } else {
                 clear = middle;
             }
         }
-        if surface.contains(clear.x, clear.z) {
+        let site = at_bisection(site, times + 1);
+        if surface.contains(clear.x, clear.z, site) {
             // The middle of the last interval halves the error for one more addition.
             let middle = clear.plus(step.halved(times + 1));
-            let place = if surface.contains(middle.x, middle.z) { middle } else { met };
+            let place = if surface.contains(middle.x, middle.z, site) { middle } else { met };
             Walk { hit: Hit::Surface, place, index, work }
         } else {
-            Walk { hit: self.beside(met, step), place: met, index, work }
+            Walk { hit: self.beside(met, step, site), place: met, index, work }
         }
     }
 
     /// What a ray meets where it comes from beside the map or out of a hole under the surface: the
     /// side, down to the base.
     #[inline(always)]
-    pub fn beside(&self, place: Place<W>, step: Place<W>) -> Hit {
-        if step.y.sign() <= 0 && place.y < self.base { Hit::Sky } else { Hit::Side }
+    pub fn beside(&self, place: Place<W>, step: Place<W>, site: Site) -> Hit {
+        let fallen = !step.y.is_positive(site.at(Register::DRayY))
+            && place.y.is_below(self.base, site.at(Register::RayY));
+        if fallen { Hit::Sky } else { Hit::Side }
     }
 
     /// Where a ray of this step is heading.
     #[inline(always)]
-    pub fn heading(&self, step: Place<W>) -> Heading {
+    pub fn heading(&self, step: Place<W>, site: Site) -> Heading {
+        let (x, y, z) =
+            (site.at(Register::DGroundX), site.at(Register::DRayY), site.at(Register::DGroundZ));
         Heading {
-            west: step.x.sign() <= 0,
-            east: step.x.sign() >= 0,
-            north: step.z.sign() <= 0,
-            south: step.z.sign() >= 0,
-            rises: step.y.sign() >= 0,
-            falls: self.sides && step.y.sign() <= 0,
+            west: !step.x.is_positive(x),
+            east: !step.x.is_negative(x),
+            north: !step.z.is_positive(z),
+            south: !step.z.is_negative(z),
+            rises: !step.y.is_negative(y),
+            falls: self.sides && !step.y.is_positive(y),
         }
     }
 
     /// Whether the ray can no longer meet the surface.
     #[inline(always)]
-    pub fn is_over(&self, place: Place<W>, heading: Heading) -> bool {
-        if (heading.rises && place.y >= self.top) || (heading.falls && place.y < self.base) {
+    pub fn is_over(&self, place: Place<W>, heading: Heading, site: Site) -> bool {
+        let y = site.at(Register::RayY);
+        if (heading.rises && !place.y.is_below(self.top, y))
+            || (heading.falls && place.y.is_below(self.base, y))
+        {
             return true;
         }
         let Some((columns, rows)) = self.extent else { return false };
-        let (i, j) = (place.x.cell(), place.z.cell());
+        let [i, j] = place.cell(site);
         (heading.west && i < 0)
             || (heading.east && i >= columns - 1)
             || (heading.north && j < 0)
@@ -464,4 +494,16 @@ impl<W: Interpolating> Unit<W> for Stepper<W> {
             table: interpolations * each.table,
         }
     }
+}
+
+/// Where a sample of the ray is looked at.
+#[inline(always)]
+fn at_sample(site: Site, index: u32) -> Site {
+    site.step(index << 3)
+}
+
+/// Where a bisection step is, apart from all samples.
+#[inline(always)]
+fn at_bisection(site: Site, halving: u32) -> Site {
+    site.step(1 << 30 | halving << 3)
 }

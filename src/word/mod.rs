@@ -9,12 +9,17 @@
 //! }
 //! ```
 //!
+//! Nor does it decide anything without saying where: comparisons, leading ones, indices of cells and
+//! look-ups in tables are named operations that take a [`Site`], so that a world which knows how far
+//! its words may err sees every decision.
+//!
 //! What a unit may do beyond that is in its trait bounds, which are its bill of materials:
 //!
 //! | trait | who asks for it |
 //! |---|---|
 //! | [`Word`] | every unit |
-//! | [`Rescale`], [`Cell`] | units that pass values from one register to another of another class |
+//! | [`Rescale`] | units that pass values from one register to another of another class |
+//! | [`Cell`] | units that address the map or a [`Table`] |
 //! | [`Multiply`] | interpolator, light, ramp, mixer, checker (shift-and-add multipliers, counted) |
 //! | [`Divide`] | divider (non-restoring array, counted) |
 //! | [`Load`] | set-up only: the one door from `f64` |
@@ -31,6 +36,7 @@ pub mod real;
 pub mod register;
 pub mod stock;
 pub mod sweep;
+mod table;
 pub mod tally;
 
 use std::fmt::Debug;
@@ -38,19 +44,11 @@ use std::ops::{Add, Neg, Sub};
 
 pub use format::{Fixed, Overflow, Rounding};
 pub use register::{Class, Register, Registers};
+pub use table::Table;
 
 /// What a register holds: a value with additions, comparisons and shifts, and nothing else.
 pub trait Word:
-    Copy
-    + PartialEq
-    + PartialOrd
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Neg<Output = Self>
-    + Debug
-    + Send
-    + Sync
-    + 'static
+    Copy + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self> + Debug + Send + Sync + 'static
 {
     /// What is known of a register's format at run time: `()` where the type says it all.
     type Format: Copy + Debug + Send + Sync;
@@ -74,12 +72,43 @@ pub trait Word:
     #[must_use]
     fn magnitude(self) -> Self;
 
-    /// −1, 0 or 1: the sign bit and a test for zero, no adder.
-    fn sign(self) -> i32;
+    /// `self + (to − self)/2^places`, the quotient rounded toward zero.
+    #[inline(always)]
+    #[must_use]
+    fn toward(self, to: Self, places: u32) -> Self {
+        self + (to - self).shift_toward_zero(places)
+    }
+
+    /// Whether this word is less than another one.
+    fn is_below(self, other: Self, site: Site) -> bool;
+
+    /// Whether it is greater than zero: the sign bit and a test for zero, no adder.
+    fn is_positive(self, site: Site) -> bool;
+
+    /// Whether it is less than zero: the sign bit.
+    fn is_negative(self, site: Site) -> bool;
 
     /// Place of the leading one of the magnitude: e with `2^e <= |value| < 2^(e+1)`. For zero,
     /// one place below the last bit (very negative in the real world).
-    fn leading_one(self) -> i32;
+    fn leading_one(self, site: Site) -> i32;
+
+    /// The lesser of two words: a clamp, which decides nothing.
+    #[must_use]
+    fn lesser(self, other: Self) -> Self;
+
+    /// The greater of two words.
+    #[must_use]
+    fn greater(self, other: Self) -> Self;
+
+    /// Whether it is zero and nothing else in its world's knowledge: then no adder is fitted for it.
+    fn is_exactly_zero(self) -> bool;
+
+    /// This word where it may also be another one. A world of bounds widens it; in all others a word
+    /// is what it is.
+    #[must_use]
+    fn hull(self, _other: Self) -> Self {
+        self
+    }
 
     /// Whether this value, or one it was made from, has overflowed its register. Only worlds with
     /// run-time formats can: the ranges of stock registers are proved by the plan.
@@ -88,16 +117,19 @@ pub trait Word:
     }
 }
 
-/// Where an operation happens: the address of its random bits under stochastic rounding.
+/// Where an operation happens: the address of its random bits under stochastic rounding, and the name
+/// of a decision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Site {
-    /// The register that takes the result.
+    /// The register that takes the result; of a decision, the one that it looks at, or whose value a
+    /// position is compared with.
     pub register: Register,
     /// Scan line from the top.
     pub line: u32,
     /// Column from the left.
     pub column: u32,
-    /// Which operation on that pixel: the index of the ray's sample, the halving.
+    /// Which operation on that pixel: eight numbers for each sample of the ray and each bisection
+    /// step.
     pub operation: u32,
 }
 
@@ -139,25 +171,35 @@ pub trait Rescale<To: Word>: Word {
 /// A position over a grid: integer part and fraction.
 pub trait Cell: Word {
     /// Index of the cell: floor.
-    fn cell(self) -> i32;
+    fn cell(self, site: Site) -> i32;
 
     /// Value minus floor, in `[0, 1)`.
     #[must_use]
     fn fraction(self) -> Self;
 
     /// Index of the nearest node, ties upward: `floor(value + 1/2)`.
-    fn nearest(self) -> i32;
+    fn nearest(self, site: Site) -> i32;
 
     /// `value + 1/2 − nearest`, in `[0, 1)`: the place between the midpoints around a node.
     #[must_use]
     fn fraction_from_midpoint(self) -> Self;
 
-    /// For a value in `[0, 1]` (larger ones go on): the nearest entry of a table with `2^log2`
-    /// entries per unit.
-    fn entry(self, log2: u32) -> usize;
+    /// The entry of a table nearest to this argument; of one beyond the table, the last.
+    fn look_up<T: Word>(self, table: &Table<T>, site: Site) -> T;
+
+    /// From each of some tables of one size over `[0, 1]` the entries nearest to this argument and to
+    /// one minus it: one address, read forwards and backwards.
+    fn look_up_mirrored<T: Word, const N: usize>(
+        self,
+        tables: [&Table<T>; N],
+        site: Site,
+    ) -> [[T; 2]; N];
 }
 
 /// A named multiplier made of shifts and adders; one rounding of the exact product.
+///
+/// What units make of it is an operation each, composed here for every world alike. A word that occurs
+/// twice in one of them is the same word twice, which a world of bounds may use.
 pub trait Multiply<By: Word>: Word {
     /// `self · by`, rounded into the format of `self`.
     #[must_use]
@@ -166,6 +208,59 @@ pub trait Multiply<By: Word>: Word {
     /// `self · by + other · other_by`, rounded once into the format of `self`.
     #[must_use]
     fn multiply_two(self, by: By, other: Self, other_by: By, site: Site) -> Self;
+
+    /// `self + (to − self)·weight`, rounded once: it stays between the two for weights in `[0, 1]`.
+    #[inline(always)]
+    #[must_use]
+    fn lerp(self, to: Self, weight: By, site: Site) -> Self {
+        self + (to - self).multiply(weight, site)
+    }
+
+    /// `self + (a − self)·weight_a + (b − self)·weight_b`, rounded once.
+    #[inline(always)]
+    #[must_use]
+    fn lerp_two(self, [a, b]: [Self; 2], weights: [By; 2], site: Site) -> Self {
+        self + (a - self).multiply_two(weights[0], b - self, weights[1], site)
+    }
+
+    /// `(self − other)·by`, rounded once.
+    #[inline(always)]
+    #[must_use]
+    fn multiply_difference(self, other: Self, by: By, site: Site) -> Self {
+        (self - other).multiply(by, site)
+    }
+
+    /// `(self − a)·by_a + (self − b)·by_b`, rounded once.
+    #[inline(always)]
+    #[must_use]
+    fn multiply_differences(self, [a, b]: [Self; 2], by: [By; 2], site: Site) -> Self {
+        (self - a).multiply_two(by[0], self - b, by[1], site)
+    }
+
+    /// Piecewise linear functions of a place, `start + rise·fraction` each, rounded once, by the
+    /// starts and rises of all segments between whole numbers from zero on. From the end of the last
+    /// segment on, they keep its end.
+    #[inline(always)]
+    fn piecewise_linear<const N: usize>(
+        segments: &[[(Self, Self); N]],
+        place: By,
+        site: Site,
+    ) -> [Self; N]
+    where
+        By: Cell,
+    {
+        let last = segments.len() as i32 - 1;
+        let cell = place.cell(site);
+        let segment = &segments[cell.clamp(0, last) as usize];
+        std::array::from_fn(|at| {
+            let (start, rise) = segment[at];
+            if cell > last {
+                start + rise
+            } else {
+                start + rise.multiply(place.fraction(), site.step(site.operation + at as u32))
+            }
+        })
+    }
 }
 
 /// Exponent and range of a ratio `numerator / denominator · 2^exponent`.

@@ -4,11 +4,12 @@
 use std::ops::{Add, Neg, Sub};
 
 use super::{
-    Cell, Divide, Fixed, Load, Multiply, Ratio, Readout, Register, Rescale, Site, Word, World,
+    Cell, Divide, Fixed, Load, Multiply, Ratio, Readout, Register, Rescale, Site, Table, Word,
+    World,
 };
 
 /// An `f64` without multiplication. The field is private, so that no unit can reach it.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RealWord(f64);
 
 impl Add for RealWord {
@@ -63,13 +64,33 @@ impl Word for RealWord {
         Self(self.0.abs())
     }
 
-    fn sign(self) -> i32 {
-        i32::from(self.0 > 0.0) - i32::from(self.0 < 0.0)
+    fn is_below(self, other: Self, _: Site) -> bool {
+        self.0 < other.0
     }
 
-    fn leading_one(self) -> i32 {
+    fn is_positive(self, _: Site) -> bool {
+        self.0 > 0.0
+    }
+
+    fn is_negative(self, _: Site) -> bool {
+        self.0 < 0.0
+    }
+
+    fn leading_one(self, _: Site) -> i32 {
         // frexp gives a mantissa in [1/2, 1); zero has no leading one.
         if self.0 == 0.0 { -2000 } else { libm::frexp(self.0.abs()).1 - 1 }
+    }
+
+    fn lesser(self, other: Self) -> Self {
+        Self(self.0.min(other.0))
+    }
+
+    fn greater(self, other: Self) -> Self {
+        Self(self.0.max(other.0))
+    }
+
+    fn is_exactly_zero(self) -> bool {
+        self.0 == 0.0
     }
 }
 
@@ -80,7 +101,7 @@ impl Rescale<RealWord> for RealWord {
 }
 
 impl Cell for RealWord {
-    fn cell(self) -> i32 {
+    fn cell(self, _: Site) -> i32 {
         self.0.floor() as i32
     }
 
@@ -88,7 +109,7 @@ impl Cell for RealWord {
         Self(self.0 - self.0.floor())
     }
 
-    fn nearest(self) -> i32 {
+    fn nearest(self, _: Site) -> i32 {
         (self.0 + 0.5).floor() as i32
     }
 
@@ -96,7 +117,22 @@ impl Cell for RealWord {
         Self(self.0 + 0.5).fraction()
     }
 
-    fn entry(self, log2: u32) -> usize {
+    fn look_up<T: Word>(self, table: &Table<T>, _: Site) -> T {
+        table.at(self.address(table.log2()))
+    }
+
+    fn look_up_mirrored<T: Word, const N: usize>(
+        self,
+        tables: [&Table<T>; N],
+        _: Site,
+    ) -> [[T; 2]; N] {
+        tables.map(|table| table.both_ways(self.address(table.log2())))
+    }
+}
+
+impl RealWord {
+    /// Of the entry nearest to this argument.
+    fn address(self, log2: u32) -> usize {
         (self.0 * power(log2 as i32) + 0.5).floor() as usize
     }
 }

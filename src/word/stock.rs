@@ -16,7 +16,7 @@ use fixed::{FixedI32, FixedI64};
 
 use super::{
     Cell, Divide, Enter, Fixed, Lane, Load, Multiply, Ratio, Readout, Register, Rescale, Site,
-    Word, World, array,
+    Table, Word, World, array,
 };
 
 /// Integer and fraction bits of a stock word, for conversions inside this file.
@@ -32,7 +32,7 @@ macro_rules! stock_words {
      $($(#[$doc:meta])* $word:ident: $fraction:ident,)*) => {
         $(
             $(#[$doc])*
-            #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+            #[derive(Clone, Copy, Debug, PartialEq)]
             #[repr(transparent)]
             pub struct $word($fixed<$fraction>);
 
@@ -102,11 +102,31 @@ macro_rules! stock_words {
                     Self::of(self.bits().wrapping_abs())
                 }
                 #[inline(always)]
-                fn sign(self) -> i32 {
-                    self.bits().signum() as i32
+                fn is_below(self, other: Self, _: Site) -> bool {
+                    self.bits() < other.bits()
                 }
                 #[inline(always)]
-                fn leading_one(self) -> i32 {
+                fn is_positive(self, _: Site) -> bool {
+                    self.bits() > 0
+                }
+                #[inline(always)]
+                fn is_negative(self, _: Site) -> bool {
+                    self.bits() < 0
+                }
+                #[inline(always)]
+                fn lesser(self, other: Self) -> Self {
+                    Self(self.0.min(other.0))
+                }
+                #[inline(always)]
+                fn greater(self, other: Self) -> Self {
+                    Self(self.0.max(other.0))
+                }
+                #[inline(always)]
+                fn is_exactly_zero(self) -> bool {
+                    self.bits() == 0
+                }
+                #[inline(always)]
+                fn leading_one(self, _: Site) -> i32 {
                     const TOP: i32 = $int::BITS as i32 - 1;
                     TOP - self.magnitude().bits().leading_zeros() as i32 - Self::POINT as i32
                 }
@@ -114,7 +134,7 @@ macro_rules! stock_words {
 
             impl Cell for $word {
                 #[inline(always)]
-                fn cell(self) -> i32 {
+                fn cell(self, _: Site) -> i32 {
                     (self.bits() >> Self::POINT) as i32
                 }
                 #[inline(always)]
@@ -122,15 +142,31 @@ macro_rules! stock_words {
                     Self::of(self.bits() & ((1 << Self::POINT) - 1))
                 }
                 #[inline(always)]
-                fn nearest(self) -> i32 {
-                    self.cell().wrapping_add((self.bits() >> (Self::POINT - 1) & 1) as i32)
+                fn nearest(self, site: Site) -> i32 {
+                    self.cell(site).wrapping_add((self.bits() >> (Self::POINT - 1) & 1) as i32)
                 }
                 #[inline(always)]
                 fn fraction_from_midpoint(self) -> Self {
                     Self::of(self.bits().wrapping_add(1 << (Self::POINT - 1))).fraction()
                 }
                 #[inline(always)]
-                fn entry(self, log2: u32) -> usize {
+                fn look_up<T: Word>(self, table: &Table<T>, _: Site) -> T {
+                    table.at(self.address(table.log2()))
+                }
+                #[inline(always)]
+                fn look_up_mirrored<T: Word, const N: usize>(
+                    self,
+                    tables: [&Table<T>; N],
+                    _: Site,
+                ) -> [[T; 2]; N] {
+                    tables.map(|table| table.both_ways(self.address(table.log2())))
+                }
+            }
+
+            impl $word {
+                /// Of the entry nearest to this argument.
+                #[inline(always)]
+                fn address(self, log2: u32) -> usize {
                     let places = Self::POINT - log2;
                     ((self.bits() + (1 << (places - 1))) >> places) as usize
                 }

@@ -11,7 +11,7 @@ use std::ops::{Add, Neg, Sub};
 use super::format::mix;
 use super::{
     Cell, Divide, Enter, Fixed, Load, Multiply, Overflow, Ratio, Readout, Register, Rescale,
-    Rounding, Site, Word, World, array,
+    Rounding, Site, Table, Word, World, array,
 };
 
 /// Format of a sweep register.
@@ -88,20 +88,23 @@ impl SweepWord {
         debug_assert_eq!(self.format.point, other.format.point);
         self.format.word(bits, self.overflowed || other.overflowed)
     }
-}
 
-impl PartialEq for SweepWord {
-    fn eq(&self, other: &Self) -> bool {
-        self.partial_cmp(other) == Some(Ordering::Equal)
-    }
-}
-
-impl PartialOrd for SweepWord {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        // Registers of different points are compared with their points aligned.
+    /// Registers of different points are compared with their points aligned.
+    fn order(self, other: Self) -> Ordering {
         let point = self.point().max(other.point());
-        let align = |word: &Self| word.bits() << (point - word.point());
-        align(self).partial_cmp(&align(other))
+        let align = |word: Self| word.bits() << (point - word.point());
+        align(self).cmp(&align(other))
+    }
+
+    /// Of the entry nearest to this argument.
+    fn address(self, log2: u32) -> usize {
+        let places = self.point() as i32 - log2 as i32;
+        let bits = self.bits().max(0);
+        if places <= 0 {
+            (bits << -places) as usize
+        } else {
+            ((bits + (1 << (places - 1))) >> places) as usize
+        }
     }
 }
 
@@ -150,11 +153,31 @@ impl Word for SweepWord {
         self.with(self.bits().abs())
     }
 
-    fn sign(self) -> i32 {
-        self.aligned.signum() as i32
+    fn is_below(self, other: Self, _: Site) -> bool {
+        self.order(other).is_lt()
     }
 
-    fn leading_one(self) -> i32 {
+    fn is_positive(self, _: Site) -> bool {
+        self.aligned > 0
+    }
+
+    fn is_negative(self, _: Site) -> bool {
+        self.aligned < 0
+    }
+
+    fn lesser(self, other: Self) -> Self {
+        if other.order(self).is_lt() { other } else { self }
+    }
+
+    fn greater(self, other: Self) -> Self {
+        if other.order(self).is_gt() { other } else { self }
+    }
+
+    fn is_exactly_zero(self) -> bool {
+        self.aligned == 0
+    }
+
+    fn leading_one(self, _: Site) -> i32 {
         127 - self.bits().unsigned_abs().leading_zeros() as i32 - self.point() as i32
     }
 
@@ -181,7 +204,7 @@ impl Rescale<SweepWord> for SweepWord {
 }
 
 impl Cell for SweepWord {
-    fn cell(self) -> i32 {
+    fn cell(self, _: Site) -> i32 {
         (self.bits() >> self.point()) as i32
     }
 
@@ -190,7 +213,7 @@ impl Cell for SweepWord {
         self.with(self.bits() & ((1 << self.point()) - 1))
     }
 
-    fn nearest(self) -> i32 {
+    fn nearest(self, _: Site) -> i32 {
         ((self.bits() + ((1 << self.point()) >> 1)) >> self.point()) as i32
     }
 
@@ -198,14 +221,16 @@ impl Cell for SweepWord {
         self.with((self.bits() + ((1 << self.point()) >> 1)) & ((1 << self.point()) - 1))
     }
 
-    fn entry(self, log2: u32) -> usize {
-        let places = self.point() as i32 - log2 as i32;
-        let bits = self.bits().max(0);
-        if places <= 0 {
-            (bits << -places) as usize
-        } else {
-            ((bits + (1 << (places - 1))) >> places) as usize
-        }
+    fn look_up<T: Word>(self, table: &Table<T>, _: Site) -> T {
+        table.at(self.address(table.log2()))
+    }
+
+    fn look_up_mirrored<T: Word, const N: usize>(
+        self,
+        tables: [&Table<T>; N],
+        _: Site,
+    ) -> [[T; 2]; N] {
+        tables.map(|table| table.both_ways(self.address(table.log2())))
     }
 }
 

@@ -3,11 +3,11 @@
 //! Counts are kept per thread; [`counted`] runs a piece of work and returns what it did.
 
 use std::cell::Cell as Counter;
-use std::cmp::Ordering;
 use std::ops::{Add, Neg, Sub};
 
 use super::{
-    Cell, Divide, Fixed, Load, Multiply, Ratio, Readout, Register, Rescale, Site, Word, World,
+    Cell, Divide, Fixed, Load, Multiply, Ratio, Readout, Register, Rescale, Site, Table, Word,
+    World,
 };
 
 /// Operations of some work. Subtractions, negations and comparisons are additions to hardware.
@@ -59,20 +59,6 @@ pub fn counted<T>(work: impl FnOnce() -> T) -> (T, Operations) {
 #[derive(Clone, Copy, Debug)]
 pub struct TallyWord<T>(T);
 
-impl<T: Word> PartialEq for TallyWord<T> {
-    fn eq(&self, other: &Self) -> bool {
-        count_addition();
-        self.0 == other.0
-    }
-}
-
-impl<T: Word> PartialOrd for TallyWord<T> {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        count_addition();
-        self.0.partial_cmp(&other.0)
-    }
-}
-
 impl<T: Word> Add for TallyWord<T> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
@@ -123,11 +109,32 @@ impl<T: Word> Word for TallyWord<T> {
         count_addition();
         Self(self.0.magnitude())
     }
-    fn sign(self) -> i32 {
-        self.0.sign()
+    fn is_below(self, other: Self, site: Site) -> bool {
+        count_addition();
+        self.0.is_below(other.0, site)
     }
-    fn leading_one(self) -> i32 {
-        self.0.leading_one()
+    fn is_positive(self, site: Site) -> bool {
+        self.0.is_positive(site)
+    }
+    fn is_negative(self, site: Site) -> bool {
+        self.0.is_negative(site)
+    }
+    fn leading_one(self, site: Site) -> i32 {
+        self.0.leading_one(site)
+    }
+    fn lesser(self, other: Self) -> Self {
+        count_addition();
+        Self(self.0.lesser(other.0))
+    }
+    fn greater(self, other: Self) -> Self {
+        count_addition();
+        Self(self.0.greater(other.0))
+    }
+    fn is_exactly_zero(self) -> bool {
+        self.0.is_exactly_zero()
+    }
+    fn hull(self, other: Self) -> Self {
+        Self(self.0.hull(other.0))
     }
     fn overflowed(self) -> bool {
         self.0.overflowed()
@@ -154,22 +161,30 @@ impl<T: Rescale<U>, U: Word> Rescale<TallyWord<U>> for TallyWord<T> {
 }
 
 impl<T: Cell> Cell for TallyWord<T> {
-    fn cell(self) -> i32 {
-        self.0.cell()
+    fn cell(self, site: Site) -> i32 {
+        self.0.cell(site)
     }
     fn fraction(self) -> Self {
         Self(self.0.fraction())
     }
-    fn nearest(self) -> i32 {
+    fn nearest(self, site: Site) -> i32 {
         count_addition();
-        self.0.nearest()
+        self.0.nearest(site)
     }
     fn fraction_from_midpoint(self) -> Self {
         Self(self.0.fraction_from_midpoint())
     }
-    fn entry(self, log2: u32) -> usize {
+    fn look_up<U: Word>(self, table: &Table<U>, site: Site) -> U {
         count_addition();
-        self.0.entry(log2)
+        self.0.look_up(table, site)
+    }
+    fn look_up_mirrored<U: Word, const N: usize>(
+        self,
+        tables: [&Table<U>; N],
+        site: Site,
+    ) -> [[U; 2]; N] {
+        count_addition();
+        self.0.look_up_mirrored(tables, site)
     }
 }
 

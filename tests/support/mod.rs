@@ -127,16 +127,18 @@ pub fn both(scene: &Scene, plan: &Plan) -> Result<(Frame, Frame), SetupError> {
 /// Draws with the fast engine at every SIMD level that there is.
 pub fn at_every_level(scene: &Scene, plan: &Plan) -> Result<Vec<Frame>, SetupError> {
     struct Levels<'a>(&'a Scene, &'a Plan);
-    impl InFixedWorld for Levels<'_> {
+    impl InFastWorld for Levels<'_> {
         type Output = Result<Vec<Frame>, SetupError>;
-        fn run<W: Complete + Enterable>(self, world: W) -> Self::Output {
+        fn run<W: Enterable>(self, world: W) -> Self::Output {
             let Self(scene, plan) = self;
-            let setup = Memories::default().set_up(world, scene, plan)?;
-            let draw = |level| fast::render_at(level, &setup, plan, true);
+            let ready = Memories::default().load(world, scene, plan)?;
+            let map = ready.map(scene, plan);
+            let source = fast::Source { setup: &ready.setup, map, plan };
+            let draw = |level| fast::render_at(level, source, true);
             Ok(fast::levels().into_iter().map(draw).collect())
         }
     }
-    FixedWorld::of(scene, plan)?.run(Levels(scene, plan))
+    FixedWorld::of(scene, plan)?.run_fast(Levels(scene, plan))
 }
 
 /// Draws with the processor in a scene's fixed-point world.

@@ -60,13 +60,14 @@ pub fn check<W: Complete>(
         }
     }
     if let Some(rom) = &units.interpolator.rom {
-        for entry in 0..=1_usize << rom.log2() {
-            same("kernel_weight", entry as i64, 0, rom.weight(entry).raw())?;
-            same("kernel_slope", entry as i64, 0, rom.slope(entry).raw())?;
+        let entries = rom.weights().entries().iter().zip(rom.slopes().entries());
+        for (entry, (weight, slope)) in (0..).zip(entries) {
+            same("kernel_weight", entry, 0, weight.raw())?;
+            same("kernel_slope", entry, 0, slope.raw())?;
         }
     }
     if let Some(light) = &units.shader.light {
-        for (entry, root) in light.rsqrt.iter().enumerate() {
+        for (entry, root) in light.rsqrt.entries().iter().enumerate() {
             same("rsqrt", entry as i64, 0, root.raw())?;
         }
     }

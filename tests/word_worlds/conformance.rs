@@ -1,13 +1,11 @@
 //! One suite for every fixed world that wraps.
 
-use std::cmp::Ordering;
-
 use terraline::word::stock::{Narrow, Wide};
 use terraline::word::sweep::{Sweep, SweepFormat};
 use terraline::word::tally::Tally;
 use terraline::word::{Complete, Fixed, Load, Overflow, Readout, Register, Rounding, Word};
 
-use super::wrapped;
+use super::{site, wrapped};
 
 /// Any fixed world with wrapping registers passes.
 fn conforms<W: Complete>(world: W) {
@@ -66,7 +64,16 @@ fn word_conforms<T: Load + Readout>(format: T::Format, fixed: Fixed, name: &str)
             assert_eq!(raw(word + other), raw(other + word), "{name}: {a} + {b}");
             assert_eq!(raw(word - other), raw(word + -other), "{name}: {a} - {b}");
             assert_eq!(raw(word - other + other), i128::from(a), "{name}: {a} - {b} + {b}");
-            order(word, other, a.cmp(&b), name);
+            let (least, most) = (i128::from(a.min(b)), i128::from(a.max(b)));
+            assert_eq!(word.is_below(other, site()), a < b, "{name}: {a} below {b}");
+            assert_eq!(raw(word.lesser(other)), least, "{name}: {a} and {b}");
+            assert_eq!(raw(word.greater(other)), most, "{name}: {a} and {b}");
+            assert_eq!(raw(word.hull(other)), i128::from(a), "{name}: {a} or {b}");
+            for places in [0, 1, fixed.width - 1] {
+                let share = wrapped(i128::from(b) - i128::from(a), fixed.width) / (1 << places);
+                let toward = wrapped(i128::from(a) + share, fixed.width);
+                assert_eq!(raw(word.toward(other, places)), toward, "{name}: {a} to {b}");
+            }
             for &c in samples.iter().step_by(9) {
                 let third = of(c);
                 let (left, right) = (word + other + third, word + (other + third));
@@ -76,18 +83,13 @@ fn word_conforms<T: Load + Readout>(format: T::Format, fixed: Fixed, name: &str)
     }
 }
 
-fn order<T: Word>(a: T, b: T, expected: Ordering, name: &str) {
-    assert_eq!(a.partial_cmp(&b), Some(expected), "{name}");
-    assert_eq!(a == b, expected == Ordering::Equal, "{name}");
-    assert_eq!(a < b, expected == Ordering::Less, "{name}");
-    assert_eq!(a >= b, expected != Ordering::Less, "{name}");
-}
-
 fn one_word<T: Word>(word: T, a: i128, fixed: Fixed, raw: &dyn Fn(T) -> i128, name: &str) {
     let keeps = |value: i128| wrapped(value, fixed.width);
     assert_eq!(raw(-word), keeps(-a), "{name}: -{a}");
     assert_eq!(raw(word.magnitude()), keeps(a.abs()), "{name}: |{a}|");
-    assert_eq!(i128::from(word.sign()), a.signum(), "{name}: sign of {a}");
+    assert_eq!(word.is_positive(site()), a > 0, "{name}: sign of {a}");
+    assert_eq!(word.is_negative(site()), a < 0, "{name}: sign of {a}");
+    assert_eq!(word.is_exactly_zero(), a == 0, "{name}: {a} is zero");
     assert_eq!(raw(word.shift_left(1)), raw(word + word), "{name}: {a} << 1");
     for places in 0..fixed.width {
         let power = 1_i128 << places;
@@ -105,7 +107,7 @@ fn one_word<T: Word>(word: T, a: i128, fixed: Fixed, raw: &dyn Fn(T) -> i128, na
     }
     assert_eq!(raw(word.shift_toward_zero(fixed.width)), 0, "{name}: {a} / 2^{}", fixed.width);
     // 2^e <= |value| < 2^(e+1), in last bits; zero is one place below the last bit.
-    let place = word.leading_one() + fixed.point as i32;
+    let place = word.leading_one(site()) + fixed.point as i32;
     if a == 0 {
         assert_eq!(place, -1, "{name}");
     } else {

@@ -7,7 +7,7 @@ use terraline::word::{
     Cell, Divide, Enter, Load, Multiply, Overflow, Ratio, Readout, Rescale, Rounding, Word,
 };
 
-use super::{floor, format, is_normal, kept, nearest, overflows, site, sweep};
+use super::{entry_of, floor, format, is_normal, kept, nearest, overflows, site, sweep};
 
 const OVERFLOWS: [Overflow; 2] = [Overflow::Wrap, Overflow::Saturate];
 
@@ -76,8 +76,8 @@ proptest! {
     fn places_in_cells((width, point, a, _) in words(), log2 in 0..=12_u32) {
         let word = sweep(a, format(width, point, Rounding::Floor, Overflow::Wrap));
         let (a, one) = (i128::from(a), 1_i128 << point);
-        prop_assert_eq!(word.cell(), floor(a, one) as i32);
-        prop_assert_eq!(word.nearest(), nearest(a, one) as i32);
+        prop_assert_eq!(word.cell(site()), floor(a, one) as i32);
+        prop_assert_eq!(word.nearest(site()), nearest(a, one) as i32);
         if point < width - 1 {
             // With a bit before the point a fraction is a word.
             let fraction = a - floor(a, one) * one;
@@ -89,7 +89,7 @@ proptest! {
                 Some(if point == 0 { 0 } else { from_midpoint })
             );
             let entry = nearest(fraction << log2, one);
-            prop_assert_eq!(word.fraction().entry(log2) as i128, entry);
+            prop_assert_eq!(entry_of(word.fraction(), log2), entry);
         }
     }
 
@@ -125,7 +125,7 @@ proptest! {
             let ratio = Ratio { exponent: 0, range: width - 1, format: super::format(62, 0, Rounding::Floor, overflow) };
             let mut ratios: Vec<Option<SweepWord>> = Vec::new();
             for (numerator, denominator) in [(back, smallest_bit), (smallest_bit, back)] {
-                if denominator.sign() > 0 {
+                if denominator.is_positive(site()) {
                     ratios.push(numerator.divide_array(denominator, ratio, site()));
                 }
             }

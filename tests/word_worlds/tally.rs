@@ -3,7 +3,7 @@
 use terraline::word::stock::{Narrow, View32, Wide};
 use terraline::word::tally::{Operations, Tally, TallyWord, counted};
 use terraline::word::{
-    Cell, Divide, Load, Multiply, Ratio, Readout, Register, Rescale, Word, World,
+    Cell, Divide, Load, Multiply, Ratio, Readout, Register, Rescale, Table, Word, World,
 };
 
 use super::site;
@@ -35,11 +35,16 @@ fn every_operation_has_its_price() {
     assert_eq!(cost(|| discard(a + b)), additions(1));
     assert_eq!(cost(|| discard(a - b)), additions(1));
     assert_eq!(cost(|| discard(-a)), additions(1));
-    assert_eq!(cost(|| discard(a == b)), additions(1));
-    assert_eq!(cost(|| discard(a < b)), additions(1));
+    assert_eq!(cost(|| discard(a.is_below(b, site()))), additions(1));
+    assert_eq!(cost(|| discard(a.lesser(b))), additions(1));
+    assert_eq!(cost(|| discard(a.greater(b))), additions(1));
     assert_eq!(cost(|| discard(a.magnitude())), additions(1));
-    assert_eq!(cost(|| discard(place.nearest())), additions(1));
-    assert_eq!(cost(|| discard(place.entry(0))), additions(1));
+    assert_eq!(cost(|| discard(place.nearest(site()))), additions(1));
+    let table = Table::new(3, vec![weight; 9]);
+    assert_eq!(cost(|| discard(place.look_up(&table, site()))), additions(1));
+    // One address for all.
+    let both = [&table, &table];
+    assert_eq!(cost(|| discard(place.look_up_mirrored(both, site()))), additions(1));
 
     let shift = Operations { shifts: 1, ..NONE };
     let rounded_shift = Operations { additions: 1, ..shift };
@@ -52,14 +57,28 @@ fn every_operation_has_its_price() {
     let two = Operations { products: 2, additions: 1, ..NONE };
     assert_eq!(cost(|| discard(height.multiply(weight, site()))), product);
     assert_eq!(cost(|| discard(height.multiply_two(weight, height, weight, site()))), two);
+    // A lerp is two sums and its products; a slope has one sum less.
+    let (pair, weights) = ([height; 2], [weight; 2]);
+    let lerp = Operations { additions: 2, ..product };
+    let lerp_two = Operations { additions: 4, ..two };
+    assert_eq!(cost(|| discard(height.lerp(height, weight, site()))), lerp);
+    assert_eq!(cost(|| discard(height.lerp_two(pair, weights, site()))), lerp_two);
+    let slope = Operations { additions: 1, ..product };
+    let slope_two = Operations { additions: 3, ..two };
+    assert_eq!(cost(|| discard(height.multiply_difference(height, weight, site()))), slope);
+    assert_eq!(cost(|| discard(height.multiply_differences(pair, weights, site()))), slope_two);
     let ratio = Ratio { exponent: 0, range: 4, format: () };
     let quotient = Operations { ratios: 1, ..NONE };
     assert_eq!(cost(|| discard::<Option<Ground>>(b.divide_array(a, ratio, site()))), quotient);
     assert_eq!(cost(|| discard::<Option<Ground>>(b.divide_direct(a, ratio, site()))), quotient);
 
     // Wiring is free.
-    assert_eq!(cost(|| discard((a.sign(), a.leading_one(), a.overflowed()))), NONE);
-    assert_eq!(cost(|| discard((place.cell(), place.fraction()))), NONE);
+    assert_eq!(
+        cost(|| discard((a.is_positive(site()), a.is_negative(site()), a.is_exactly_zero()))),
+        NONE
+    );
+    assert_eq!(cost(|| discard((a.leading_one(site()), a.overflowed(), a.hull(b)))), NONE);
+    assert_eq!(cost(|| discard((place.cell(site()), place.fraction()))), NONE);
     assert_eq!(cost(|| discard((View::zero(()), a.value(), a.raw()))), NONE);
 }
 

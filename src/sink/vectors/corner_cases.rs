@@ -11,7 +11,7 @@ use crate::unit::projector::{Linear, Projector};
 use crate::unit::stepper::SurfaceUnit;
 use crate::unit::{Description, Line};
 use crate::word::format::mix;
-use crate::word::{Complete, Fixed, Load, Readout, Register, Word};
+use crate::word::{Complete, Fixed, Load, Readout, Register, Site, Word};
 
 /// Lines and columns that a set of coefficients is scanned over.
 pub const RASTER: u32 = 4;
@@ -267,7 +267,7 @@ impl<W: Complete> CornerCases<W> {
                 let z = self.coordinate(unit.heights.rows(), Register::GroundZ);
                 let x = self.ground(Register::GroundX, x);
                 let z = self.ground(Register::GroundZ, z);
-                if unit.contains(x, z) {
+                if unit.contains(x, z, Site::pixel(line.number, line.column[at])) {
                     (line.ground_x[at], line.ground_z[at]) = (x, z);
                     line.hit[at] = if self.below(8) == 0 { Hit::Side } else { Hit::Surface };
                     break;

@@ -94,26 +94,23 @@ pub fn write<W: Complete>(
     }
     if let Some(rom) = &units.interpolator.rom {
         let address = format!("entry; {} entries a cell", 1_u32 << rom.log2());
-        let entries = 0..=1_usize << rom.log2();
-        let weights: Vec<_> = entries.clone().map(|at| rom.weight(at)).collect();
-        let slopes: Vec<_> = entries.map(|at| rom.slope(at)).collect();
         memories.words(
             ("kernel_weight", "weights of the kernel", &address),
             ("weight", Register::Weight, "weight of the node before the place"),
-            &weights,
+            rom.weights().entries(),
         )?;
         memories.words(
             ("kernel_slope", "derivatives of the weights", &address),
             ("weight_slope", Register::WeightSlope, "derivative, per cell"),
-            &slopes,
+            rom.slopes().entries(),
         )?;
     }
     if let Some(light) = &units.shader.light {
-        let address = format!("entry; {} entries a unit", 1_u32 << light.rsqrt_log2);
+        let address = format!("entry; {} entries a unit", 1_u32 << light.rsqrt.log2());
         memories.words(
             ("rsqrt", "reciprocal square roots", &address),
             ("rsqrt", Register::Shade, "one over the root of entry / entries"),
-            &light.rsqrt,
+            light.rsqrt.entries(),
         )?;
     }
     let channel = notation(world, Register::Channel);

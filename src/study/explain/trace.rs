@@ -168,16 +168,17 @@ impl Walk {
         }
         let Some(mut place) = stepper.start(line, 0) else { return };
         let (x, y, z) = (line.view_x[0], line.view_y[0], line.view_z[0]);
-        let step = stepper.step(x, y, z, Site::pixel(self.line, self.column));
+        let site = Site::pixel(self.line, self.column);
+        let step = stepper.step(x, y, z, site);
         own.place(Quantity::Start, place);
-        trace.exponent = stepper.exponent(x, y, z);
+        trace.exponent = stepper.exponent(x, y, z, site);
         own.place(Quantity::Step, step);
         for _ in 0..self.index.unwrap_or(trace.steps) {
             place = place.plus(step);
         }
         own.place(Quantity::LastSample, place);
-        trace.hole =
-            at_hole(units, trace.hit, place.minus(step), [line.ground_x[0], line.ground_z[0]]);
+        let there = [line.ground_x[0], line.ground_z[0]];
+        trace.hole = at_hole(units, trace.hit, place.minus(step), there, site);
     }
 }
 
@@ -189,7 +190,7 @@ fn interpolation<W: Complete>(
     own: &mut Readings<'_>,
 ) {
     if interpolator.form == Form::Stretch {
-        let stencil = interpolator.stencil(x, z);
+        let stencil = interpolator.stencil(x, z, site);
         for (column, nodes) in (-1..).zip(stencil.nodes) {
             for (row, node) in (-1..).zip(nodes) {
                 own.read(Quantity::Node(column, row), node);
@@ -200,7 +201,7 @@ fn interpolation<W: Complete>(
             own.read(Quantity::WeightAfter(axis), outer.weights[1]);
         }
     } else {
-        for (at, node) in interpolator.nodes(x, z).into_iter().enumerate() {
+        for (at, node) in interpolator.nodes(x, z, site).into_iter().enumerate() {
             own.read(Quantity::CellNode(at), node);
         }
         let arm_x = interpolator.arm(x.fraction(), site.step(AT_THE_HIT ^ 1));
@@ -219,15 +220,18 @@ fn at_hole<W: Complete>(
     hit: Hit,
     before: Place<W>,
     [x, z]: [W::Ground; 2],
+    site: Site,
 ) -> Option<&'static str> {
     let interpolator = &units.interpolator;
     let holed = interpolator.heights.has_voids();
     match hit {
         // What is on the map and no surface is a hole.
-        Hit::Side if holed && interpolator.is_on_map(before.x, before.z) => {
+        Hit::Side if holed && interpolator.is_on_map(before.x, before.z, site) => {
             Some("the ray comes out of a hole under the surface and meets its side")
         }
-        Hit::Sky if holed && interpolator.is_on_map(x, z) && interpolator.is_hole(x, z) => {
+        Hit::Sky
+            if holed && interpolator.is_on_map(x, z, site) && interpolator.is_hole(x, z, site) =>
+        {
             Some("the ray leaves the map through a hole")
         }
         Hit::Surface | Hit::Side | Hit::Sky | Hit::Far => None,

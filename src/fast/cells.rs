@@ -13,9 +13,9 @@ use crate::unit::height_memory::HeightMemory;
 pub struct Cells<T> {
     pairs: Vec<T>,
     /// Pairs of a row.
-    pub(crate) stride: i32,
+    pub stride: i32,
     /// Cells run from −1 to these, in x and z.
-    pub(crate) last: (i32, i32),
+    pub last: (i32, i32),
 }
 
 impl<T: Copy + Send + Sync> Cells<T> {

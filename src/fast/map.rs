@@ -1,37 +1,41 @@
-//! What the packets of the fast engine read of a height map, beside the machine's memories.
+//! The fast engine's own copy of a height map: what packets read beside the machine's registers.
+//!
+//! Made once per map, from set-up's `f64`; everything after it is integers.
+#![allow(clippy::float_arithmetic)]
 
 use rayon::prelude::*;
 
 use super::cells::Cells;
-use super::kernel;
+use super::enter::Enterable;
 use super::maxima::Maxima;
-use crate::plan::ranges::WalkPlan;
-use crate::scene::Kernel;
+use crate::plan::{Ground, Plan};
+use crate::scene::{Kernel, Scene};
+use crate::setup::{Memory, kernel};
 use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
 use crate::unit::kernel_rom::KernelRom;
-use crate::word::{Readout, Register, World};
+use crate::word::{Readout, Register, Table, World};
 
 /// Roundings of a weight: more than its last bits in any stock world.
 const ROUNDINGS: f64 = 1.0 / (1 << 18) as f64;
 
 /// A height map as packets read it.
 #[derive(Clone, Debug)]
-pub struct Relief<T> {
+pub struct Map<W: World> {
     /// Highest nodes of blocks.
-    pub maxima: Maxima,
+    pub(super) maxima: Maxima,
     /// Nodes.
-    pub cells: Cells<T>,
+    pub(super) cells: Cells<W::Height>,
     /// Weights, where the machine has a kernel ROM.
-    pub weights: Option<Weights>,
+    pub(super) weights: Option<Weights>,
     /// Straightness of the kernel.
-    pub bend: Bend,
+    pub(super) bend: Bend,
 }
 
 /// How far a kernel's weight strays from straightness within a cell, rounded up. Equation 33 of
 /// docs/mathematics.md.
 #[derive(Clone, Copy, Debug)]
-pub struct Bend {
+pub(super) struct Bend {
     /// Square of the largest slope, 8 fraction bits.
     pub slope_squared: u64,
     /// Half the largest second derivative, 8 fraction bits.
@@ -42,28 +46,29 @@ pub struct Bend {
 
 /// The kernel ROM's tables as integers, which have 32 bits in all stock worlds.
 #[derive(Clone, Debug)]
-pub struct Weights {
+pub(super) struct Weights {
     /// Entries per unit, as a power of two.
     pub log2: u32,
     /// Weights.
-    pub weight: Table,
+    pub weight: MaskedTable,
     /// Slopes.
-    pub slope: Table,
+    pub slope: MaskedTable,
 }
 
 /// More entries than any kernel ROM has: addresses are masked, so that none needs a test.
 #[derive(Clone, Debug)]
-pub struct Table(Box<[i32; Table::ENTRIES]>);
+pub(super) struct MaskedTable(Box<[i32; MaskedTable::ENTRIES]>);
 
-impl Table {
+impl MaskedTable {
     const ENTRIES: usize = 1 << 17;
     /// The bits of an address.
     pub const MASK: i32 = Self::ENTRIES as i32 - 1;
 
-    fn new(entries: impl Iterator<Item = i32>) -> Self {
+    fn new<T: Readout>(words: &Table<T>, point: u32) -> Self {
+        let one = libm::exp2(f64::from(point));
         let mut table = Box::new([0; Self::ENTRIES]);
-        for (to, from) in table.iter_mut().zip(entries) {
-            *to = from;
+        for (to, from) in table.iter_mut().zip(words.entries()) {
+            *to = (from.value() * one) as i32;
         }
         Self(table)
     }
@@ -75,44 +80,37 @@ impl Table {
     }
 }
 
-impl<T: Readout + Send + Sync> Relief<T> {
-    /// The relief of a map; none where packets do not know it.
-    pub fn new<W: World<Height = T, Weight: Readout>>(
-        world: &W,
-        heights: &HeightMemory<T>,
-        rom: Option<&KernelRom<W::Weight>>,
-        walk: &WalkPlan,
-        kernel: &Kernel,
-        form: Form,
-    ) -> Option<Self> {
+impl<W: Enterable> Map<W> {
+    /// The copy of a scene's map. None where rays do not walk by packets: in worlds whose words are no
+    /// plain integers, in machines that do not skip, where blocks would meet at a seam, over holes
+    /// that are no cells of the map, and where products of heights with weights need more than 64
+    /// bits.
+    pub fn new(world: &W, scene: &Scene, plan: &Plan, memory: Option<&Memory<W>>) -> Option<Self> {
+        let (Ground::Terrain(walk), Some(memory)) = (&plan.ground, memory) else { return None };
+        let (heights, form) = (&*memory.heights, memory.form);
         let point = world.fixed(Register::Node)?.point;
-        if !packets_walk(heights, form, walk, point) {
+        let cells = match heights.edge() {
+            Edge::Wraps => false,
+            Edge::Clamps => !heights.has_voids(),
+            Edge::Ends => !heights.has_voids() || form != Form::Stretch,
+        };
+        let top = bits(walk.top, point);
+        if !(W::PACKED && plan.fitted.pyramid && cells && top + (point as i32) < 62) {
             return None;
         }
         let weight_point = world.fixed(Register::Weight)?.point;
+        let weights = |rom: &KernelRom<W::Weight>| Weights {
+            log2: rom.log2(),
+            weight: MaskedTable::new(rom.weights(), weight_point),
+            slope: MaskedTable::new(rom.slopes(), weight_point),
+        };
         Some(Self {
-            maxima: maxima(heights, walk, form, point),
+            maxima: maxima(heights, top, form, point),
             cells: Cells::new(heights),
-            weights: rom.map(|rom| weights(rom, weight_point)),
-            bend: bend(kernel, form),
+            weights: memory.rom.as_deref().map(weights),
+            bend: bend(&scene.kernel, form),
         })
     }
-}
-
-/// Whether packets know the map: not where blocks would meet at a seam, nor holes that are no cells
-/// of the map, nor heights whose products with weights need more than 64 bits.
-fn packets_walk<T: Copy>(
-    heights: &HeightMemory<T>,
-    form: Form,
-    walk: &WalkPlan,
-    point: u32,
-) -> bool {
-    let cells = match heights.edge() {
-        Edge::Wraps => false,
-        Edge::Clamps => !heights.has_voids(),
-        Edge::Ends => !heights.has_voids() || form != Form::Stretch,
-    };
-    cells && bits(walk.top, point) + (point as i32) < 62
 }
 
 /// Bits of a positive value with a binary point, rounded up.
@@ -120,28 +118,13 @@ fn bits(value: f64, point: u32) -> i32 {
     libm::ceil(libm::log2(value.max(f64::MIN_POSITIVE))) as i32 + point as i32
 }
 
-/// Heights in coarse steps of 15 bits, rounded up.
-fn maxima<T: Readout + Send + Sync>(
-    heights: &HeightMemory<T>,
-    walk: &WalkPlan,
-    form: Form,
-    point: u32,
-) -> Maxima {
-    let places = (bits(walk.top, point) - 14).max(0) as u32;
+/// Heights of up to `top` bits in coarse steps of 15 bits, rounded up.
+fn maxima<T: Readout>(heights: &HeightMemory<T>, top: i32, form: Form, point: u32) -> Maxima {
+    let places = (top - 14).max(0) as u32;
     let steps = libm::exp2(f64::from(point) - f64::from(places));
     let nodes = heights.nodes();
     let coarse = nodes.par_iter().map(|node| libm::ceil(node.value() * steps) as i16).collect();
     Maxima::new(&heights.with_words(coarse), i32::from(form == Form::Stretch), places)
-}
-
-fn weights<T: Readout>(rom: &KernelRom<T>, point: u32) -> Weights {
-    let one = libm::exp2(f64::from(point));
-    let entries = 0..=1_usize << rom.log2();
-    Weights {
-        log2: rom.log2(),
-        weight: Table::new(entries.clone().map(|at| (rom.weight(at).value() * one) as i32)),
-        slope: Table::new(entries.map(|at| (rom.slope(at).value() * one) as i32)),
-    }
 }
 
 /// Straightness of a weight over 2×2 nodes (equation 33); its blend's shift is a factor on what the

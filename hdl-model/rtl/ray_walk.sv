@@ -1,5 +1,5 @@
-// The places of a ray's walk: an axis each for x, y and z (equations 19, 21 and 22), and whether the ray
-// can still meet anything at three of these places.
+// The places of a ray's walk: an axis each for x, y and z (equations 19, 21 and 22; thesis 2.1),
+// and whether the ray can still meet anything at three of these places.
 //
 // Never wraps a position (the plan proves their range), never multiplies.
 module ray_walk #(

@@ -12,7 +12,6 @@ use super::scene_args::{Planned, SceneArgs};
 use super::scene_out::SceneOut;
 use super::{Stop, report};
 use crate::engine::{Band, Engine, InFixedWorld, Machine, Wanted};
-use crate::fast::enter::Enterable;
 use crate::plan::units::{UnitPlan, units};
 use crate::sink::picture::Picture;
 use crate::sink::{npz, png};

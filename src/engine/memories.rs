@@ -4,8 +4,8 @@ use std::any::Any;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::fast::enter::Enterable;
 use crate::fast;
+use crate::fast::enter::Enterable;
 use crate::plan::{Ground, Plan};
 use crate::scene::Scene;
 use crate::setup::{Memory, Setup, SetupError};

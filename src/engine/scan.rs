@@ -131,6 +131,21 @@ impl Machine<'_> {
         Ok(self.scan(engine, Wanted { buffers, ..Wanted::default() })?.finish().frame)
     }
 
+    /// The fast engine's frame at every SIMD level of this processor, the widest first.
+    #[must_use]
+    pub fn frames_at_every_level(&self, buffers: bool) -> Vec<Frame> {
+        in_fixed!(&self.fixed, ready => {
+            let source = self.source(ready);
+            fast::levels().into_iter().map(|level| fast::render_at(level, source, buffers)).collect()
+        })
+    }
+
+    /// What the fast engine draws from; its map is made now if it has not drawn before.
+    fn source<'a, W: Enterable>(&'a self, ready: &'a Ready<W>) -> fast::Source<'a, W> {
+        let map = ready.map(self.scene, self.plan);
+        fast::Source { setup: &ready.setup, map, plan: self.plan }
+    }
+
     fn fast<'a, W: Enterable>(
         &'a self,
         ready: &'a Ready<W>,
@@ -138,8 +153,7 @@ impl Machine<'_> {
         wanted: Wanted,
         watched: bool,
     ) -> Scan<'a> {
-        let map = ready.map(self.scene, self.plan);
-        let source = fast::Source { setup: &ready.setup, map, plan: self.plan };
+        let source = self.source(ready);
         Scan::new(lines, move |lines, stop| {
             let overflows = Mutex::new(Overflows::default());
             let inspect = |line: &Line<W>| {

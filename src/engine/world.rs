@@ -1,6 +1,5 @@
 //! The fixed-point world of a scene, by its plan's choice.
 
-use crate::fast::enter::Enterable;
 use crate::plan::{Plan, WordClass, formats};
 use crate::scene::Scene;
 use crate::setup::SetupError;
@@ -24,7 +23,7 @@ pub trait InFixedWorld {
     /// Result.
     type Output;
     /// Does the work in a world.
-    fn run<W: Complete + Enterable>(self, world: W) -> Self::Output;
+    fn run<W: Complete>(self, world: W) -> Self::Output;
 }
 
 impl FixedWorld {

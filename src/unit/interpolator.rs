@@ -141,7 +141,7 @@ impl<W: Interpolating> Interpolator<W> {
     pub fn weight(&self, fraction: W::Ground, site: Site) -> W::Weight {
         let site = site.at(Register::Weight);
         match (&self.form, &self.rom) {
-            // Equation 16.
+            // Equation 16; thesis 2.59 to 2.61.
             (Form::Blend(shift), Some(rom)) => {
                 let kernel = fraction.look_up(rom.weights(), site);
                 self.hat(fraction, site).toward(kernel, *shift)

@@ -96,7 +96,7 @@ impl<W: Shading> Unit<W> for Light<W> {
         bank.tone(C::LightZ, z);
         bank.tone(C::Ambient, self.ambient);
         bank.tone(C::ShadeOne, self.one);
-        bank.number(C::RsqrtLog2, self.rsqrt_log2);
+        bank.number(C::RsqrtLog2, self.rsqrt.log2());
     }
 
     fn timing(&self, _: u32) -> Timing {

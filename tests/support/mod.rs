@@ -9,8 +9,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
-use terraline::engine::{Engine, FixedWorld, InFixedWorld, Machine, Memories};
-use terraline::fast::{self, enter::Enterable};
+use terraline::engine::{Engine, Machine, Memories};
 use terraline::frame::{Entry, Frame, Giver, Hit};
 use terraline::oracle::Oracle;
 use terraline::plan::{Plan, PlanError};
@@ -19,7 +18,6 @@ use terraline::scene::{
     Surface, Terrain, load,
 };
 use terraline::setup::SetupError;
-use terraline::word::Complete;
 
 /// Names of the built-in scenes with a height map.
 pub const TERRAINS: [&str; 3] = ["overview", "flight", "valley"];
@@ -126,19 +124,7 @@ pub fn both(scene: &Scene, plan: &Plan) -> Result<(Frame, Frame), SetupError> {
 
 /// Draws with the fast engine at every SIMD level that there is.
 pub fn at_every_level(scene: &Scene, plan: &Plan) -> Result<Vec<Frame>, SetupError> {
-    struct Levels<'a>(&'a Scene, &'a Plan);
-    impl InFastWorld for Levels<'_> {
-        type Output = Result<Vec<Frame>, SetupError>;
-        fn run<W: Enterable>(self, world: W) -> Self::Output {
-            let Self(scene, plan) = self;
-            let ready = Memories::default().load(world, scene, plan)?;
-            let map = ready.map(scene, plan);
-            let source = fast::Source { setup: &ready.setup, map, plan };
-            let draw = |level| fast::render_at(level, source, true);
-            Ok(fast::levels().into_iter().map(draw).collect())
-        }
-    }
-    FixedWorld::of(scene, plan)?.run_fast(Levels(scene, plan))
+    Ok(machine(scene, plan)?.frames_at_every_level(true))
 }
 
 /// Draws with the processor in a scene's fixed-point world.

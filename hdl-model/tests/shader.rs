@@ -54,7 +54,7 @@ fn load_light<W: Stock>(rtl: &mut Model, light: Option<&Light<W>>, strobe: &str)
             set(name, bits(toward));
         }
         set("ambient", bits(light.ambient));
-        write(rtl, strobe, light.rsqrt.iter().map(|&entry| bits(entry)).enumerate());
+        write(rtl, strobe, light.rsqrt.entries().iter().map(|&entry| bits(entry)).enumerate());
     }
 }
 

@@ -15,8 +15,8 @@
 //! - [`processor`] and [`fast`]: the two engines, equal in every bit; [`clock`] counts cycles.
 //! - [`oracle`]: every pixel in closed form, sharing no code with what it checks.
 //! - [`engine`]: a scene's machine, set up, to be drawn by any of them, and asked by studies.
-//! - [`study`], [`sink`], [`cli`]: errors and costs, files, commands.
-//! - `view` (feature `window`): the window.
+//! - [`study`], [`sink`]: errors and costs, files.
+//! - `cli` (feature `cli`): the commands; `view` (feature `window`): the window.
 //!
 //! Draw a frame and ask what it is worth:
 //!
@@ -38,6 +38,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod clock;
 pub mod engine;

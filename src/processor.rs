@@ -3,7 +3,7 @@
 #![deny(clippy::float_arithmetic)]
 
 use crate::setup::Setup;
-use crate::unit::projector::LineStart;
+use crate::unit::line::LineStart;
 use crate::unit::{Line, Unit};
 use crate::word::Complete;
 

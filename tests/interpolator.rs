@@ -14,7 +14,7 @@ use terraline::plan::{Plan, WordClass};
 use terraline::scene::{Deformation, Kernel, KernelShape, Outside, Scene, WordSize};
 use terraline::unit::height_memory::{Edge, HeightMemory};
 use terraline::unit::interpolator::{Form, Interpolator};
-use terraline::unit::stepper::SurfaceUnit;
+use terraline::unit::surface_unit::SurfaceUnit;
 use terraline::unit::{Line, Unit as _};
 use terraline::word::stock::{Narrow, Wide};
 use terraline::word::sweep::{Sweep, SweepFormat};

@@ -1,5 +1,4 @@
 //! The window without a window: sessions, render worker and canvas behind a glass of the tests' own.
-#![cfg(feature = "window")]
 
 #[path = "window/display.rs"]
 mod display;

@@ -6,7 +6,8 @@ use std::fmt::Write as _;
 use terraline::plan::WordClass;
 use terraline::setup::table;
 use terraline::unit::coefficient::Coefficient;
-use terraline::unit::{divider, interpolator, kernel_rom, projector, shader, stepper};
+use terraline::unit::description::SHADER_TIMING;
+use terraline::unit::{divider, interpolator, kernel_rom, projector, stepper};
 use terraline::word::Register;
 
 use crate::coefficients::{self, Bits, bits};
@@ -61,8 +62,8 @@ pub fn package() -> String {
         ("KERNEL_LATENCY", kernel_rom::LATENCY, "cycles of kernel ROM and blend"),
         ("LERP_LATENCY", interpolator::LERP_LATENCY, "stages of a height behind nodes and weights"),
         ("SLOPE_LATENCY", interpolator::SLOPE_LATENCY, "stages of the slopes' factors"),
-        ("SHADER_LATENCY", shader::TIMING.latency, "L of the shader"),
-        ("SHADER_DEPTH", shader::TIMING.depth, "D of the shader"),
+        ("SHADER_LATENCY", SHADER_TIMING.latency, "L of the shader"),
+        ("SHADER_DEPTH", SHADER_TIMING.depth, "D of the shader"),
     ] {
         let _ = writeln!(out, "  localparam int {name} = {value};  // {what}");
     }

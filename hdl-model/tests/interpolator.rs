@@ -13,7 +13,7 @@ use terraline::scene::KernelShape;
 use terraline::unit::height_memory::Edge;
 use terraline::unit::interpolator::{Form, Interpolator, LERP_LATENCY, SLOPE_LATENCY};
 use terraline::unit::kernel_rom::LATENCY as KERNEL_LATENCY;
-use terraline::unit::stepper::SurfaceUnit;
+use terraline::unit::surface_unit::SurfaceUnit;
 use terraline::word::stock::{Narrow, Wide};
 use terraline::word::{Multiply, Register, Site};
 use terraline_hdl::{Model, Port};

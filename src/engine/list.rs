@@ -1,7 +1,8 @@
 //! The engines by name.
 
 /// Who draws the frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Engine {
     /// Line by line, units in their order.
     Processor,

@@ -7,7 +7,7 @@ use super::land::Land;
 use super::map::MaskedTable;
 use super::words::{LANES, Packed, Words, lanes};
 use crate::unit::interpolator::Form;
-use crate::unit::stepper::SurfaceUnit;
+use crate::unit::surface_unit::SurfaceUnit;
 use crate::word::{Lane as _, Site};
 
 /// Nodes h1 to h4 around a place per ray.

@@ -6,7 +6,6 @@
 use rayon::prelude::*;
 
 use super::cells::Cells;
-use super::enter::Enterable;
 use super::maxima::Maxima;
 use crate::plan::{Ground, Plan};
 use crate::scene::{Kernel, Scene};
@@ -14,7 +13,7 @@ use crate::setup::{Memory, kernel};
 use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
 use crate::unit::kernel_rom::KernelRom;
-use crate::word::{Readout, Register, Table, World};
+use crate::word::{Open, Readout, Register, Table, World};
 
 /// Roundings of a weight: more than its last bits in any stock world.
 const ROUNDINGS: f64 = 1.0 / (1 << 18) as f64;
@@ -80,7 +79,7 @@ impl MaskedTable {
     }
 }
 
-impl<W: Enterable> Map<W> {
+impl<W: Open> Map<W> {
     /// The copy of a scene's map. None where rays do not walk by packets: in worlds whose words are no
     /// plain integers, in machines that do not skip, where blocks would meet at a seam, over holes
     /// that are no cells of the map, and where products of heights with weights need more than 64

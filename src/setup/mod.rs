@@ -15,7 +15,8 @@ use crate::unit::divider::Divider;
 use crate::unit::interpolator::Interpolator;
 use crate::unit::projector::Projector;
 use crate::unit::shader::Shader;
-use crate::unit::stepper::{Stepper, SurfaceUnit};
+use crate::unit::stepper::Stepper;
+use crate::unit::surface_unit::SurfaceUnit;
 use crate::unit::{Idle, Unit, interpolator, stepper};
 use crate::word::{
     Complete, Interpolating, Open, Readout, Register, Shading, Site, Word as _, World,

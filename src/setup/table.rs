@@ -4,10 +4,10 @@
 use std::fmt::Write as _;
 
 use crate::plan::WordClass;
+use crate::unit::description::SHADER_TIMING;
 use crate::unit::divider::ENDS as DIVIDER_ENDS;
 use crate::unit::interpolator::{LERP_LATENCY, SLOPE_LATENCY};
 use crate::unit::kernel_rom::LATENCY as KERNEL_LATENCY;
-use crate::unit::shader;
 use crate::unit::stepper::{RAY_END, RAY_START};
 use crate::word::Register;
 
@@ -135,8 +135,8 @@ pub fn markdown() -> String {
         DIVIDER_ENDS + 1,
         LERP_LATENCY + SLOPE_LATENCY,
         LERP_LATENCY + SLOPE_LATENCY + 1,
-        shader::TIMING.latency,
-        shader::TIMING.depth,
+        SHADER_TIMING.latency,
+        SHADER_TIMING.depth,
     );
     out
 }

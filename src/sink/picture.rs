@@ -3,8 +3,6 @@
 //! Every function takes plain slices, one value per pixel, and gives one sRGB triple per pixel
 //! with the range that its ramp stands for. Pixels without a value are [`NOTHING`].
 
-use clap::ValueEnum;
-
 use crate::engine::Band;
 
 /// Colour of a pixel without a value (a miss): a dark neutral grey that no ramp passes through.
@@ -20,7 +18,8 @@ pub const ERROR_LOW: f64 = 1.0 / 256.0;
 pub const ERROR_HIGH: f64 = 4.0;
 
 /// What a picture shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Picture {
     /// The frame itself.
     #[default]
@@ -320,7 +319,9 @@ mod tests {
     }
 
     #[test]
+    #[cfg(feature = "cli")]
     fn names_are_those_of_the_command_line() {
+        use clap::ValueEnum as _;
         for picture in Picture::ALL {
             let value = picture.to_possible_value().unwrap();
             assert_eq!(value.get_name(), picture.name());

@@ -11,16 +11,17 @@
 //! *Cycles*: one pixel per cycle. *Never*: divides.
 
 use super::coefficient::{Bank, Coefficient as C};
+use super::description::{SHADER, SHADER_TIMING};
 use super::line::{Entry, Wire};
 use super::pixel::Pixel;
-use super::{Description, Line, Timing, Unit, shader};
+use super::{Description, Line, Timing, Unit};
 use crate::frame::Hit;
 use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Word, World};
 
 /// What the checker is.
 pub const DESCRIPTION: Description = Description {
     name: "checker",
-    stage: shader::STAGE,
+    stage: SHADER,
     gives: "outcome and colour of a pixel of a plane",
     inputs: &[Wire::Entry, Wire::EntryX, Wire::EntryZ, Wire::Denominator],
     outputs: &[Wire::Hit, Wire::Color],
@@ -124,6 +125,6 @@ impl<W: Shading> Unit<W> for Checker<W> {
     }
 
     fn timing(&self, _: u32) -> Timing {
-        shader::TIMING
+        SHADER_TIMING
     }
 }

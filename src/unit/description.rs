@@ -80,6 +80,14 @@ impl Timing {
     }
 }
 
+/// The stage that light, ramp, mixer and pixel share; on a plane the checker is in their place.
+pub const SHADER: &str = "shader";
+
+/// Its cycles: eleven of light and ramp side by side (normal, squares, table, dot product, light;
+/// place, segment, colour), one of the mixer's products, one of mixer and pixel that rounds them.
+/// The checker, which has fewer to do, takes as many.
+pub const SHADER_TIMING: Timing = Timing::pipeline(1, 13);
+
 /// Reads of a unit on an item.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reads {

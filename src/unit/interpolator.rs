@@ -26,7 +26,7 @@ use super::coefficient::{Bank, Coefficient as C};
 use super::height_memory::HeightMemory;
 use super::kernel_rom::{self, KernelRom};
 use super::line::{When, Wire, Work};
-use super::stepper::SurfaceUnit;
+use super::surface_unit::SurfaceUnit;
 use super::{Description, Line, Reads, Timing, Unit};
 use crate::frame::Hit;
 use crate::word::{Cell, Interpolating, Multiply, Register, Rescale, Site, Word, World};

@@ -14,15 +14,16 @@
 use std::sync::Arc;
 
 use super::coefficient::{Bank, Coefficient as C};
+use super::description::{SHADER, SHADER_TIMING};
 use super::line::{When, Wire, Work};
-use super::{Description, Line, Reads, Timing, Unit, shader};
+use super::{Description, Line, Reads, Timing, Unit};
 use crate::frame::Hit;
 use crate::word::{Cell, Multiply, Register, Rescale, Shading, Site, Table, Word, World};
 
 /// What the light is.
 pub const DESCRIPTION: Description = Description {
     name: "light",
-    stage: shader::STAGE,
+    stage: SHADER,
     gives: "how much light the surface reflects",
     inputs: &[Wire::Hit, Wire::SlopeX, Wire::SlopeZ],
     outputs: &[Wire::Shade],
@@ -100,7 +101,7 @@ impl<W: Shading> Unit<W> for Light<W> {
     }
 
     fn timing(&self, _: u32) -> Timing {
-        shader::TIMING
+        SHADER_TIMING
     }
 
     fn reads(&self, _: Work, hit: Hit) -> Reads {

@@ -3,7 +3,6 @@
 //! Every wire stands once, in the list at the end of this file. What passes wires on (test vectors,
 //! co-simulation, explanations, overflow counts) names them by [`Wire`].
 
-use super::projector::LineStart;
 use crate::frame::Hit;
 use crate::word::{Open, Readout, Register, Word, World};
 
@@ -33,6 +32,27 @@ pub struct Work {
     pub halvings: u32,
     /// Hits: one, or none.
     pub hits: u32,
+}
+
+/// The projector's accumulators at the first column of a line; those that are absent stay as they are.
+#[derive(Clone, Copy, Debug)]
+pub struct LineStart<W: World> {
+    /// View vector, x.
+    pub x: W::View,
+    /// View vector, y.
+    pub y: W::View,
+    /// View vector, z.
+    pub z: W::View,
+    /// Denominator.
+    pub denominator: W::View,
+}
+
+impl<W: World> LineStart<W> {
+    /// Accumulators at zero.
+    pub fn idle(world: &W) -> Self {
+        let zero = W::View::zero(world.view(Register::ViewX));
+        Self { x: zero, y: zero, z: zero, denominator: zero }
+    }
 }
 
 /// The pixels at which a wire says something.

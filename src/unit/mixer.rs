@@ -11,14 +11,15 @@
 //! *Cycles*: one pixel per cycle. *Never*: divides.
 
 use super::coefficient::{Bank, Coefficient as C};
+use super::description::{SHADER, SHADER_TIMING};
 use super::line::{When, Wire};
-use super::{Description, Line, Timing, Unit, shader};
+use super::{Description, Line, Timing, Unit};
 use crate::word::{Multiply, Register, Shading, Site};
 
 /// What the mixer is.
 pub const DESCRIPTION: Description = Description {
     name: "mixer",
-    stage: shader::STAGE,
+    stage: SHADER,
     gives: "the colour of the lit ground",
     inputs: &[Wire::Hit, Wire::AlbedoRed, Wire::AlbedoGreen, Wire::AlbedoBlue, Wire::Shade],
     outputs: &[Wire::LitRed, Wire::LitGreen, Wire::LitBlue],
@@ -64,6 +65,6 @@ impl<W: Shading> Unit<W> for Mixer {
     }
 
     fn timing(&self, _: u32) -> Timing {
-        shader::TIMING
+        SHADER_TIMING
     }
 }

@@ -30,6 +30,7 @@ pub mod pyramid;
 pub mod ramp;
 pub mod shader;
 pub mod stepper;
+pub mod surface_unit;
 
 pub use description::{Cycles, Description, Idle, Reads, Timing, Unit};
 pub use line::{Line, Wire};

@@ -11,15 +11,16 @@
 //! *Cycles*: one pixel per cycle. *Never*: multiplies or divides.
 
 use super::coefficient::{Bank, Coefficient as C};
+use super::description::{SHADER, SHADER_TIMING};
 use super::line::Wire;
-use super::{Description, Line, Timing, Unit, shader};
+use super::{Description, Line, Timing, Unit};
 use crate::frame::Hit;
 use crate::word::{Cell, Register, Site, World};
 
 /// What the pixel unit is.
 pub const DESCRIPTION: Description = Description {
     name: "pixel",
-    stage: shader::STAGE,
+    stage: SHADER,
     gives: "the bytes of a pixel",
     inputs: &[Wire::Hit, Wire::LitRed, Wire::LitGreen, Wire::LitBlue],
     outputs: &[Wire::Color],
@@ -78,6 +79,6 @@ impl<W: World> Unit<W> for Pixel {
     }
 
     fn timing(&self, _: u32) -> Timing {
-        shader::TIMING
+        SHADER_TIMING
     }
 }

@@ -13,7 +13,7 @@
 //! so that entering it at any pixel gives the same bits.
 
 use super::coefficient::{Bank, Coefficient as C};
-use super::line::Wire;
+use super::line::{LineStart, Wire};
 use super::{Cycles, Description, Line, Timing, Unit};
 use crate::word::{Register, Word, World};
 
@@ -53,27 +53,6 @@ pub struct Projector<W: World> {
     pub z: Linear<W::View>,
     /// Denominator; only the divider needs it.
     pub denominator: Option<Linear<W::View>>,
-}
-
-/// The accumulators at the first column of a line; those that are absent stay as they are.
-#[derive(Clone, Copy, Debug)]
-pub struct LineStart<W: World> {
-    /// View vector, x.
-    pub x: W::View,
-    /// View vector, y.
-    pub y: W::View,
-    /// View vector, z.
-    pub z: W::View,
-    /// Denominator.
-    pub denominator: W::View,
-}
-
-impl<W: World> LineStart<W> {
-    /// Accumulators at zero.
-    pub fn idle(world: &W) -> Self {
-        let zero = W::View::zero(world.view(Register::ViewX));
-        Self { x: zero, y: zero, z: zero, denominator: zero }
-    }
 }
 
 impl<W: World> Projector<W> {

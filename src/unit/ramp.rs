@@ -10,14 +10,15 @@
 //! *Cycles*: one pixel per cycle. *Never*: divides.
 
 use super::coefficient::{Bank, Coefficient as C};
+use super::description::{SHADER, SHADER_TIMING};
 use super::line::{When, Wire};
-use super::{Description, Line, Timing, Unit, shader};
+use super::{Description, Line, Timing, Unit};
 use crate::word::{Multiply, Register, Rescale, Shading, Site, Word, World};
 
 /// What the ramp is.
 pub const DESCRIPTION: Description = Description {
     name: "ramp",
-    stage: shader::STAGE,
+    stage: SHADER,
     gives: "the colour of the ground by its height",
     inputs: &[Wire::Hit, Wire::Surface],
     outputs: &[Wire::AlbedoRed, Wire::AlbedoGreen, Wire::AlbedoBlue],
@@ -78,6 +79,6 @@ impl<W: Shading> Unit<W> for Ramp<W> {
     }
 
     fn timing(&self, _: u32) -> Timing {
-        shader::TIMING
+        SHADER_TIMING
     }
 }

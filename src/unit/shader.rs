@@ -9,20 +9,12 @@
 //! Light and ramp work side by side. *Cycles*: one pixel per cycle. Planes have the checker in its
 //! place.
 
+use super::Unit;
 use super::light::Light;
 use super::mixer::Mixer;
 use super::pixel::Pixel;
 use super::ramp::Ramp;
-use super::{Timing, Unit};
 use crate::word::{Shading, World};
-
-/// Name of the stage.
-pub const STAGE: &str = "shader";
-
-/// Its cycles: eleven of light and ramp side by side (normal, squares, table, dot product, light;
-/// place, segment, colour), one of the mixer's products, one of mixer and pixel that rounds them.
-/// The checker, which has fewer to do, takes as many.
-pub const TIMING: Timing = Timing::pipeline(1, 13);
 
 /// The shader of height maps.
 #[derive(Clone, Debug)]

@@ -25,6 +25,7 @@ use super::coefficient::{Bank, Coefficient as C};
 use super::interpolator::{self, Interpolator};
 use super::line::{Entry, Wire, Work};
 use super::pyramid::Pyramid;
+use super::surface_unit::SurfaceUnit;
 use super::{Cycles, Description, Line, Reads, Timing, Unit};
 use crate::frame::Hit;
 use crate::word::{Cell, Interpolating, Register, Rescale, Site, Word, World};
@@ -76,14 +77,6 @@ pub const fn timing(reads: u32, void_bits: bool, memory_latency: u32) -> Timing 
         hit: RAY_END + rim,
     };
     Timing { work, latency: 1, depth: 2 }
-}
-
-/// What the stepper asks of the interpolator.
-pub trait SurfaceUnit<W: World> {
-    /// Whether the surface exists at a place: it is on the map and not in a hole.
-    fn contains(&self, x: W::Ground, z: W::Ground, site: Site) -> bool;
-    /// Its height there.
-    fn height(&self, x: W::Ground, z: W::Ground, site: Site) -> W::Height;
 }
 
 /// How many halvings refine a hit.

@@ -1,7 +1,7 @@
 //! Words of the stock worlds as bits, on ports and in lines.
 
 use terraline::scene::WordSize;
-use terraline::unit::shader;
+use terraline::unit::description::SHADER_TIMING;
 use terraline::word::stock::{Narrow, Wide};
 use terraline::word::{Complete, Lane};
 
@@ -51,8 +51,5 @@ pub fn packed(color: [u8; 3]) -> u64 {
 }
 
 /// Timing of the shader, and of the checker in its place.
-pub const SHADING: Timing = Timing {
-    work: 1,
-    latency: shader::TIMING.latency as u64,
-    depth: shader::TIMING.depth as usize,
-};
+pub const SHADING: Timing =
+    Timing { work: 1, latency: SHADER_TIMING.latency as u64, depth: SHADER_TIMING.depth as usize };

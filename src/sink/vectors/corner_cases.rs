@@ -8,7 +8,7 @@ use crate::unit::checker::Checker;
 use crate::unit::divider::Divider;
 use crate::unit::line::Entry;
 use crate::unit::projector::{Linear, Projector};
-use crate::unit::stepper::SurfaceUnit;
+use crate::unit::surface_unit::SurfaceUnit;
 use crate::unit::{Description, Line};
 use crate::word::format::mix;
 use crate::word::{Complete, Fixed, Load, Readout, Register, Site, Word};

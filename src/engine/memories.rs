@@ -72,7 +72,7 @@ impl<W: Enterable> Ready<W> {
         self.loaded.map.get_or_init(|| {
             let start = Instant::now();
             let memory = self.loaded.memory.as_ref();
-            let map = fast::Map::new(&self.setup.world, scene, plan, memory);
+            let map = fast::map(&self.setup.world, scene, plan, memory);
             (map, start.elapsed())
         })
     }

@@ -80,10 +80,9 @@ impl MaskedTable {
 }
 
 impl<W: Open> Map<W> {
-    /// The copy of a scene's map. None where rays do not walk by packets: in worlds whose words are no
-    /// plain integers, in machines that do not skip, where blocks would meet at a seam, over holes
-    /// that are no cells of the map, and where products of heights with weights need more than 64
-    /// bits.
+    /// The copy of a scene's map. `None` where rays do not walk by packets: in machines that do not
+    /// skip, where blocks would meet at a seam, over holes that are no cells of the map, and where
+    /// products of heights with weights need more than 64 bits.
     pub fn new(world: &W, scene: &Scene, plan: &Plan, memory: Option<&Memory<W>>) -> Option<Self> {
         let (Ground::Terrain(walk), Some(memory)) = (&plan.ground, memory) else { return None };
         let (heights, form) = (&*memory.heights, memory.form);
@@ -94,7 +93,7 @@ impl<W: Open> Map<W> {
             Edge::Ends => !heights.has_voids() || form != Form::Stretch,
         };
         let top = bits(walk.top, point);
-        if !(W::PACKED && plan.fitted.pyramid && cells && top + (point as i32) < 62) {
+        if !(plan.fitted.pyramid && cells && top + (point as i32) < 62) {
             return None;
         }
         let weight_point = world.fixed(Register::Weight)?.point;

@@ -36,7 +36,8 @@ use rayon::prelude::*;
 use crate::frame::{Buffers, Frame, Giver, Hit};
 use crate::plan::Plan;
 use crate::readout::Reader;
-use crate::setup::{Back, Setup};
+use crate::scene::Scene;
+use crate::setup::{Back, Memory, Setup};
 use crate::unit::divider::Method;
 use crate::unit::{Line, Unit as _};
 use crate::word::World;
@@ -104,6 +105,17 @@ fn project<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
             divider.run_by(Method::Direct, line);
         }
     }
+}
+
+/// The copy of a map that packets read; `None` where rays are drawn one by one: in worlds whose words
+/// are no plain integers, and where [`Map::new`] gives none.
+pub fn map<W: Enterable>(
+    world: &W,
+    scene: &Scene,
+    plan: &Plan,
+    memory: Option<&Memory<W>>,
+) -> Option<Map<W>> {
+    W::PACKED.then(|| Map::new(world, scene, plan, memory)).flatten()
 }
 
 /// What the fast engine draws from.

@@ -50,8 +50,10 @@ mod writer;
 pub use crate::word::{Overflow, Registers, Rounding};
 pub use camera::{Angles, Attitude, Camera};
 pub use error::SceneError;
+#[cfg(feature = "cli")]
 pub(crate) use error::list;
 pub use format::FormatRequest;
+#[cfg(feature = "cli")]
 pub(crate) use format::registers;
 pub use hardware::{Hardware, RatioForm, WordSize};
 pub use height_map::{Encoding, HeightFile, HeightMap};

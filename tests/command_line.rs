@@ -245,7 +245,7 @@ fn explain_reports_rows_in_json() {
             }
         }
         let text = folder.prints(&["explain", scene, "--pixel", pixel]);
-        assert!(text.contains("view, x"), "{text}");
+        assert!(text.contains("view_x"), "{text}");
     }
 }
 

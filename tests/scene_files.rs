@@ -153,7 +153,7 @@ fn keys_go_where_they_belong() {
         width: 48,
         point: 30,
         rounding: Rounding::NearestEven,
-        overflow: Overflow::Saturate,
+        ..coarse
     };
     assert_eq!(
         scene.formats,

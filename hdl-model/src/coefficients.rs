@@ -66,6 +66,8 @@ pub fn words<W: Complete>(setup: &Setup<W>) -> Vec<(usize, i64)> {
                 value.min(most_shift(setup)).clamp(-128, 127)
             }
             Kind::Exponent => value.clamp(-128, 127),
+            // Red is in the low byte there.
+            Kind::Color => i64::from((value as u32).swap_bytes() >> 8),
             // Without a ROM nobody looks; the smallest table has 16 entries.
             _ if coefficient == Coefficient::KernelLog2 => value.max(4),
             _ => value,

@@ -20,7 +20,7 @@ pub enum Kind {
     Count(u32),
     /// A power of two.
     Exponent,
-    /// sRGB bytes, red in the low byte.
+    /// sRGB bytes, blue in the low byte.
     Color,
 }
 
@@ -106,7 +106,7 @@ impl<W: World> Bank<W> {
 
     /// Puts in a colour.
     pub fn color(&mut self, coefficient: Coefficient, [red, green, blue]: [u8; 3]) {
-        self.number(coefficient, u32::from_le_bytes([red, green, blue, 0]));
+        self.number(coefficient, u32::from_be_bytes([0, red, green, blue]));
     }
 }
 

@@ -259,9 +259,8 @@ fn registers(file: &File, expected: &[(&str, Option<i64>)]) -> Result<(), String
     Ok(())
 }
 
-/// A colour as a register holds it: red in the low byte.
-fn packed([red, green, blue]: [u8; 3]) -> i64 {
-    i64::from(red) | i64::from(green) << 8 | i64::from(blue) << 16
+fn packed(color: [u8; 3]) -> i64 {
+    color.into_iter().fold(0, |all, byte| all << 8 | i64::from(byte))
 }
 
 /// The inputs of a file on the wires of a line. What does not matter is whatever is there.

@@ -1,10 +1,10 @@
 // The ray stepper: the first sample of a ray under the surface (docs/units/stepper.md).
 //
 // One ray at a time, as a state machine; its work on a ray takes
-// 4 + trials (1 + M) + samples R + groups (N + 5) + halvings (R + N + 5) + hits 2 cycles with
+// 4 + trials (1 + M) + samples R + groups (N + 5) + bisection steps (R + N + 5) + hits 2 cycles with
 // N = max(M, 2), on maps with holes 2 R + N + 5 more per hit (docs/cycles.md). Here is what happens when.
 // The step is made by `ray_setup`, places are in `ray_walk`, the count of samples and what follows in
-// `walk_plan`; `skip_test` and `sample_burst` ask, `halvings` counts the bisection steps behind a hit, and
+// `walk_plan`; `skip_test` and `sample_burst` ask, `bisection` counts the bisection steps behind a hit, and
 // `walk_end` says what comes of it.
 //
 // Never wraps a position (the plan proves their range), never passes a sample that might hit, never
@@ -23,9 +23,9 @@ module stepper #(
     input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] base,            // base of the block under the map
     input  logic        [                      2:0] fineness,        // k: steps of at most 2^-k cells
     input  logic        [                     25:0] last,            // index of the last sample
-    input  logic                                    halvings_fixed,  // always halvings_cap halvings
-    input  logic signed [                      7:0] halvings_bias,   // halvings at distance one
-    input  logic        [                      5:0] halvings_cap,    // most halvings
+    input  logic                                    bisection_fixed,  // always bisection_cap bisection steps
+    input  logic signed [                      7:0] bisection_bias,   // bisection steps at distance one
+    input  logic        [                      5:0] bisection_cap,    // most bisection steps
     input  logic                                    skipping,        // the pyramid is fitted
     input  logic        [                      4:0] pyramid_top,     // its highest level
     input  logic                                    beyond_sky,      // out of range is sky
@@ -202,16 +202,16 @@ module stepper #(
   // ---- The bisection steps behind a hit (equation 22).
   logic bisects;
   logic aimed;  // the first cycle of the bisection
-  logic [5:0] times, halvings_left;
+  logic [5:0] times, bisections_left;
 
-  halvings #(.W(W), .POINT(POINT)) halvings (
+  bisection #(.W(W), .POINT(POINT)) bisection (
       .clock(clock), .eye_x(eye_x), .eye_y(eye_y), .eye_z(eye_z),
-      .fixed(halvings_fixed), .bias(halvings_bias), .cap(halvings_cap),
+      .fixed(bisection_fixed), .bias(bisection_bias), .cap(bisection_cap),
       .x(follow_x), .y(follow_y), .z(follow_z), .any(bisects), .times(times));
   always_ff @(posedge clock) begin
     aimed <= aims;
-    if (aimed) halvings_left <= times;
-    else if (answered) halvings_left <= halvings_left - 6'd1;
+    if (aimed) bisections_left <= times;
+    else if (answered) bisections_left <= bisections_left - 6'd1;
   end
 
   // ---- The end of the walk.
@@ -257,7 +257,7 @@ module stepper #(
         BOUND: if (bound_valid) state <= put ? IDLE : walk_on;
         SAMPLE: if (ends) state <= hits ? AIM : put ? IDLE : walk_on;
         AIM: state <= bisects ? HALVE : void_bits ? RIM : PLACE;
-        HALVE: if (ends && halvings_left == 6'd1) state <= void_bits ? RIM : PLACE;
+        HALVE: if (ends && bisections_left == 6'd1) state <= void_bits ? RIM : PLACE;
         RIM: if (ends) state <= PLACE;
         default: state <= IDLE;
       endcase

@@ -41,7 +41,7 @@ package terraline_pkg;
   localparam int DIVIDER_ENDS = 3;  // stages of the divider besides one per quotient bit
   localparam int STEPPER_DEPTH = 2;  // D of the stepper and of the serial divider
   localparam int RAY_START = 4;  // cycles to turn a view vector into a step and to begin with it
-  localparam int RAY_END = 2;  // cycles of a hit besides its halvings
+  localparam int RAY_END = 2;  // cycles of a hit besides its bisection steps
   localparam int KERNEL_LATENCY = 2;  // cycles of kernel ROM and blend
   localparam int LERP_LATENCY = 5;  // stages of a height behind nodes and weights
   localparam int SLOPE_LATENCY = 2;  // stages of the slopes' factors

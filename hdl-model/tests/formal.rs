@@ -216,7 +216,7 @@ const STEPPER: Proof = Proof {
     modules: &[
         "terraline_pkg",
         "leading_one",
-        "halvings",
+        "bisection",
         "next_trial",
         "ray_axis",
         "ray_step",

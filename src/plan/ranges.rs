@@ -57,8 +57,8 @@ pub struct WalkPlan {
     pub range: u32,
     /// Largest magnitude a position register takes.
     pub extreme: f64,
-    /// Halvings at distance one.
-    pub halving_bias: i32,
+    /// Bisection steps at distance one.
+    pub bisection_bias: i32,
     needs: Needs,
 }
 
@@ -184,7 +184,8 @@ impl WalkPlan {
         let vertical = start_y.abs().max(base.abs()).max(eye_y.abs()) + 2.0 * walk + 2.0;
         // Step and distance lie along one ray, so their largest components are in the ratio of
         // their lengths: 2^-k · 2^-n <= 2^e · finest_angle / 32 (equation 22).
-        let halving_bias = libm::log2(32.0 / geometry.finest_angle).ceil() as i32 - fineness as i32;
+        let bisection_bias =
+            libm::log2(32.0 / geometry.finest_angle).ceil() as i32 - fineness as i32;
         Self {
             words,
             scale,
@@ -197,7 +198,7 @@ impl WalkPlan {
             reach,
             range,
             extreme: horizontal.max(vertical),
-            halving_bias,
+            bisection_bias,
             needs: Needs {
                 fineness,
                 horizontal,

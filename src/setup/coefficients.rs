@@ -8,7 +8,7 @@ use crate::frame::Hit;
 use crate::plan::geometry::{LinearScalar, LinearVector};
 use crate::plan::ranges::WalkPlan;
 use crate::plan::{Ground, Plan, PlanePlan};
-use crate::scene::{Colors, Halvings, Plane, RatioForm, Scene};
+use crate::scene::{Bisection, Colors, Plane, RatioForm, Scene};
 use crate::unit::checker::Checker;
 use crate::unit::divider::Divider;
 use crate::unit::interpolator::Interpolator;
@@ -18,7 +18,7 @@ use crate::unit::pixel::Pixel;
 use crate::unit::projector::{Linear, Projector};
 use crate::unit::ramp::{Ramp, Segment};
 use crate::unit::shader::Shader;
-use crate::unit::stepper::{HalvingRule, Stepper};
+use crate::unit::stepper::{BisectionRule, Stepper};
 use crate::word::{Dividing, Load, Open, Ratio, Register, Word, World};
 
 /// View vector and denominator as the projector accumulates them, scaled by powers of two.
@@ -196,7 +196,7 @@ pub(super) fn stepper<W: Open>(
     let height = |value| load(value, Register::RayY, world.height(Register::RayY));
     let heights = &memory.heights;
     let ends = heights.edge() == crate::unit::height_memory::Edge::Ends;
-    // The real world halves as often as the stock one of this plan.
+    // The real world bisects as often as the stock one of this plan.
     let point = world.fixed(Register::GroundX).map_or(walk.words.ground_point, |f| f.point);
     Ok(Stepper {
         from_eye: walk.from_eye,
@@ -207,10 +207,10 @@ pub(super) fn stepper<W: Open>(
         base: height(walk.base)?,
         fineness: scene.stepper.fineness,
         last: walk.last,
-        halvings: match scene.stepper.halvings {
-            Halvings::Fixed(times) => HalvingRule::Fixed(times),
-            Halvings::Footprint => HalvingRule::Footprint {
-                bias: walk.halving_bias,
+        bisection: match scene.stepper.halvings {
+            Bisection::Fixed(times) => BisectionRule::Fixed(times),
+            Bisection::Footprint => BisectionRule::Footprint {
+                bias: walk.bisection_bias,
                 // A step keeps a bit.
                 cap: point.saturating_sub(scene.stepper.fineness + 1),
             },

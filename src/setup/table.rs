@@ -124,7 +124,7 @@ pub fn markdown() -> String {
          | divider, array | 1 | bits + {DIVIDER_ENDS} | bits + {} |\n\
          | divider, serial | bits + {DIVIDER_ENDS} | 1 | 2 |\n\
          | stepper | {RAY_START} + trials·(1 + M) + samples·R + groups·(N + {LERP_LATENCY}) + \
-         halvings·(R + N + {LERP_LATENCY}) + hits·({RAY_END} + H) | 1 | 2 |\n\
+         bisection_steps·(R + N + {LERP_LATENCY}) + hits·({RAY_END} + H) | 1 | 2 |\n\
          | interpolator | R | N + {} | N + {} |\n\
          | shader, checker | 1 | {} | {} |\n\
          | frame | 1 | 0 | 1 |\n\n\

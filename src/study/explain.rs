@@ -59,12 +59,12 @@ pub struct Explanation {
     pub oracle_hit: &'static str,
     /// Index of the sample that hit.
     pub steps: u32,
-    /// Trials, samples, halvings.
+    /// Skip tests in fixed point.
     pub trials: u32,
     /// See `trials`.
     pub samples: u32,
     /// See `trials`.
-    pub halvings: u32,
+    pub bisection_steps: u32,
     /// sRGB bytes: fixed.
     pub color: [u8; 3],
     /// sRGB bytes: oracle.
@@ -127,7 +127,7 @@ impl Machine<'_> {
             steps: fixed.steps,
             trials: fixed.work.trials,
             samples: fixed.work.samples,
-            halvings: fixed.work.halvings,
+            bisection_steps: fixed.work.bisection_steps,
             color: fixed.color,
             oracle_color: sighting.color,
             turned_away: fixed.turned_away,

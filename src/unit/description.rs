@@ -39,8 +39,8 @@ pub struct Cycles {
     pub sample: u32,
     /// Groups of samples.
     pub group: u32,
-    /// Halvings.
-    pub halving: u32,
+    /// Bisection steps.
+    pub bisection_step: u32,
     /// Hits.
     pub hit: u32,
 }
@@ -48,7 +48,7 @@ pub struct Cycles {
 impl Cycles {
     /// The same number of cycles on every item.
     pub const fn every(item: u32) -> Self {
-        Self { item, trial: 0, sample: 0, group: 0, halving: 0, hit: 0 }
+        Self { item, trial: 0, sample: 0, group: 0, bisection_step: 0, hit: 0 }
     }
 
     /// On an item for which the stepper did so much.
@@ -57,7 +57,7 @@ impl Cycles {
             + work.trials * self.trial
             + work.samples * self.sample
             + work.groups * self.group
-            + work.halvings * self.halving
+            + work.bisection_steps * self.bisection_step
             + work.hits * self.hit
     }
 }

@@ -29,8 +29,8 @@ pub struct Work {
     pub samples: u32,
     /// Runs of samples streamed through the interpolator.
     pub groups: u32,
-    /// Halvings after the hit.
-    pub halvings: u32,
+    /// Bisection steps behind the hit.
+    pub bisection_steps: u32,
     /// Hits: one, or none.
     pub hits: u32,
 }

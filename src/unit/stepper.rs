@@ -7,13 +7,13 @@
 //! The walk starts at the eye, or where the ray enters the slab under the highest node. ΔP is V
 //! shifted right and rounded to nearest so that its largest component lies between 2^−k−1 and 2^−k
 //! cells (equation 20). A sample hits if the surface exists there and `y < surface`, strictly; the
-//! first such index is the hit, refined by halvings.
+//! first such index is the hit, refined by bisection.
 //!
 //! | wire in | wire out |
 //! |---|---|
 //! | `view_*`, `entry`, `entry_x`, `entry_z` | `hit`, `ground_x`, `ground_z`, `steps`, `work` |
 //!
-//! *Named outcomes*: `Side` when the last clear place, after the halvings, lies outside the map or in
+//! *Named outcomes*: `Side` when the last clear place, after the bisection, lies outside the map or in
 //! a hole; `Sky` when the ray is out of the map and receding, above the highest node and rising, or
 //! outside the map or in a hole, under the base and falling; `Far` when the last index is reached.
 //! *Never*: wraps a position (proved at set-up for the last index and the largest jump), passes a
@@ -57,12 +57,12 @@ pub const DESCRIPTION: Description = Description {
 /// one, shift, end of the walk.
 pub const RAY_START: u32 = 4;
 
-/// Cycles that a hit takes besides its halvings: one for its distance from the eye, which says how
-/// many they are, and one to place it.
+/// Cycles that a hit takes besides its bisection steps: one for its distance from the eye, which says
+/// how many they are, and one to place it.
 pub const RAY_END: u32 = 2;
 
 /// Cycles over a map whose interpolations take so many cycles of reading: every trial waits for the
-/// pyramid, samples stream through the interpolation in groups, halvings wait for each other. With
+/// pyramid, samples stream through the interpolation in groups, bisection steps wait for each other. With
 /// holes, the bits of the two places between which a hit lies are read once more.
 pub const fn timing(reads: u32, void_bits: bool, memory_latency: u32) -> Timing {
     let answer = interpolator::height_latency(memory_latency);
@@ -72,7 +72,7 @@ pub const fn timing(reads: u32, void_bits: bool, memory_latency: u32) -> Timing 
         trial: 1 + memory_latency,
         sample: reads,
         group: answer,
-        halving: reads + answer,
+        bisection_step: reads + answer,
         hit: RAY_END + rim,
     };
     Timing { work, latency: 1, depth: 2 }
@@ -86,14 +86,14 @@ pub trait SurfaceUnit<W: World> {
     fn height(&self, x: W::Ground, z: W::Ground, site: Site) -> W::Height;
 }
 
-/// How many halvings refine a hit.
+/// How many bisection steps refine a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HalvingRule {
+pub enum BisectionRule {
     /// `bias − e`, e the place of the leading one of the distance to the eye, within `0..=cap`.
     Footprint {
-        /// Halvings at distance one.
+        /// Bisection steps at distance one.
         bias: i32,
-        /// Most halvings: the step still has bits.
+        /// Most bisection steps: the step still has bits.
         cap: u32,
     },
     /// Always as many.
@@ -119,8 +119,8 @@ pub struct Stepper<W: World> {
     pub fineness: u32,
     /// Index of the last sample.
     pub last: u32,
-    /// Refinement.
-    pub halvings: HalvingRule,
+    /// How far a hit is refined.
+    pub bisection: BisectionRule,
     /// Bounds for skipping; absent when the stepper is plain.
     pub pyramid: Option<Arc<Pyramid<W::Height>>>,
     /// What an entry beyond the divider's range means: `Sky` where the whole map is within it.
@@ -270,10 +270,10 @@ impl<W: World> Stepper<W> {
 
     /// Bisection steps at a place (equation 22).
     #[inline(always)]
-    pub fn halvings_at(&self, place: Place<W>, site: Site) -> u32 {
-        match self.halvings {
-            HalvingRule::Fixed(times) => times,
-            HalvingRule::Footprint { bias, cap } => {
+    pub fn bisection_steps_at(&self, place: Place<W>, site: Site) -> u32 {
+        match self.bisection {
+            BisectionRule::Fixed(times) => times,
+            BisectionRule::Footprint { bias, cap } => {
                 let away = place.minus(self.eye());
                 let leading = away
                     .x
@@ -363,12 +363,12 @@ impl<W: World> Stepper<W> {
         mut work: Work,
     ) -> Walk<W> {
         work.hits = 1;
-        let times = self.halvings_at(hit, at_sample(site, index));
+        let times = self.bisection_steps_at(hit, at_sample(site, index));
         let (mut clear, mut met) = (hit.minus(step), hit);
-        for halving in 1..=times {
-            work.halvings += 1;
-            let middle = clear.plus(step.halved(halving));
-            let here = at_bisection(site, halving);
+        for round in 1..=times {
+            work.bisection_steps += 1;
+            let middle = clear.plus(step.halved(round));
+            let here = at_bisection(site, round);
             if surface.contains(middle.x, middle.z, here) && middle.is_under(surface, here) {
                 met = middle;
             } else {
@@ -470,9 +470,9 @@ impl<W: Interpolating> Unit<W> for Stepper<W> {
         bank.number(C::Last, self.last);
         bank.number(C::BeyondSky, self.beyond == Hit::Sky);
         heights.coefficients(bank);
-        let (fixed, bias, cap) = match self.halvings {
-            HalvingRule::Fixed(times) => (true, 0, times),
-            HalvingRule::Footprint { bias, cap } => (false, bias, cap),
+        let (fixed, bias, cap) = match self.bisection {
+            BisectionRule::Fixed(times) => (true, 0, times),
+            BisectionRule::Footprint { bias, cap } => (false, bias, cap),
         };
         bank.number(C::BisectionFixed, fixed);
         bank.number(C::BisectionBias, bias);
@@ -488,7 +488,7 @@ impl<W: Interpolating> Unit<W> for Stepper<W> {
 
     fn reads(&self, work: Work, _: Hit) -> Reads {
         let each = self.surface.reads_per_height();
-        let interpolations = u64::from(work.samples + work.halvings);
+        let interpolations = u64::from(work.samples + work.bisection_steps);
         Reads {
             memory: u64::from(work.trials) + interpolations * each.memory,
             table: interpolations * each.table,
@@ -504,6 +504,6 @@ fn at_sample(site: Site, index: u32) -> Site {
 
 /// Where a bisection step is, apart from all samples.
 #[inline(always)]
-fn at_bisection(site: Site, halving: u32) -> Site {
-    site.step(1 << 30 | halving << 3)
+fn at_bisection(site: Site, round: u32) -> Site {
+    site.step(1 << 30 | round << 3)
 }

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use glam::{DVec2, DVec3};
 use terraline::plan::Plan;
 use terraline::scene::{
-    Deformation, Extent, Halvings, KernelShape, Outside, Scene, Stepper, StepperMode,
+    Bisection, Deformation, Extent, KernelShape, Outside, Scene, Stepper, StepperMode,
 };
 
 use super::support::{both, builtin, difference, draw_in_real, map, over, terrain};
@@ -70,9 +70,9 @@ fn scenes() -> Vec<(String, Scene)> {
         });
     }
     for (fineness, times) in [(0, 0), (0, 20), (6, 0), (6, 20)] {
-        add(format!("fineness {fineness}, {times} halvings"), &|scene| {
+        add(format!("fineness {fineness}, {times} bisection steps"), &|scene| {
             scene.stepper =
-                Stepper { mode: StepperMode::Plain, fineness, halvings: Halvings::Fixed(times) };
+                Stepper { mode: StepperMode::Plain, fineness, halvings: Bisection::Fixed(times) };
         });
     }
     for table in [16, 1 << 16] {

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use terraline::plan::geometry::Geometry;
 use terraline::scene::{
-    Angles, Attitude, Deformation, Extent, Halvings, HeightMap, Kernel, KernelShape, Outside,
+    Angles, Attitude, Bisection, Deformation, Extent, HeightMap, Kernel, KernelShape, Outside,
     Scene, Screen, StepperMode,
 };
 use terraline::word::format::mix;
@@ -75,7 +75,7 @@ pub struct Recipe {
     pub kernel: Kernel,
     pub mode: StepperMode,
     pub fineness: u32,
-    pub halvings: Halvings,
+    pub bisection: Bisection,
     pub eye: Eye,
     /// Eye on whole cells, angles in steps of 45 degrees.
     pub snapped: bool,
@@ -141,7 +141,7 @@ impl Recipe {
         scene.kernel = self.kernel;
         scene.stepper.mode = self.mode;
         scene.stepper.fineness = self.fineness;
-        scene.stepper.halvings = self.halvings;
+        scene.stepper.halvings = self.bisection;
         scene.light.ambient = self.ambient;
         scene.color.ramp.clone_from(&self.ramp);
         let angles = |(heading, pitch, roll): (f64, f64, f64)| Angles {
@@ -322,7 +322,8 @@ pub fn recipes() -> BoxedStrategy<Recipe> {
     ];
     let steepness = prop_oneof![0.05..1.0, 1.0..12.0, 12.0..60.0_f64];
     let outside = select(vec![Outside::Sky, Outside::Sky, Outside::Clamp, Outside::Wrap]);
-    let halvings = prop_oneof![Just(Halvings::Footprint), (0..=20_u32).prop_map(Halvings::Fixed)];
+    let bisection =
+        prop_oneof![Just(Bisection::Footprint), (0..=20_u32).prop_map(Bisection::Fixed)];
     let voids = prop_oneof![
         6 => Just(Voids::None),
         2 => (0.002..0.3_f64).prop_map(Voids::Scattered),
@@ -340,7 +341,7 @@ pub fn recipes() -> BoxedStrategy<Recipe> {
         outside,
         prop_oneof![Just(None), (0.01..5.0_f64).prop_map(Some)],
     );
-    let walk = (kernels(), 0..=4_u32, halvings, eyes(), prop::bool::weighted(0.2), turns());
+    let walk = (kernels(), 0..=4_u32, bisection, eyes(), prop::bool::weighted(0.2), turns());
     let small = || -0.5..0.5_f64;
     let angle = || prop_oneof![3 => Just(0.0), 1 => -170.0..170.0_f64];
     let look = (
@@ -366,7 +367,7 @@ pub fn recipes() -> BoxedStrategy<Recipe> {
             kernel: walk.0,
             mode: StepperMode::Skipping,
             fineness: walk.1,
-            halvings: walk.2,
+            bisection: walk.2,
             eye: walk.3,
             snapped: walk.4,
             turn: walk.5,

@@ -58,14 +58,14 @@ impl<'a> Reader<'a> {
             height: point.y,
             normal: normal.to_array(),
             steps: if lambda.is_finite() { line.steps[i] } else { 0 },
-            trials: line.work[i].trials,
+            trials: line.work[i].skip_tests,
         })
     }
 
     /// Appends a line to buffers. Skip tests are counted on misses, too.
     pub fn read<W: Open>(&self, line: &Line<W>, giver: Giver, buffers: &mut Buffers) {
         for i in 0..line.len() {
-            let miss = || Pixel { trials: line.work[i].trials, ..Pixel::MISS };
+            let miss = || Pixel { trials: line.work[i].skip_tests, ..Pixel::MISS };
             buffers.push(self.pixel(line, i).unwrap_or_else(miss), giver);
         }
     }

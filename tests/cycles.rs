@@ -112,7 +112,7 @@ fn the_recurrence_is_what_a_cycle_by_cycle_simulation_does() {
 fn queues_fill_and_drain() {
     // Bursts of hard pixels among easy ones stall the units before the stepper.
     let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]"]);
-    let hard = Work { trials: 40, samples: 30, groups: 6, bisection_steps: 12, hits: 1 };
+    let hard = Work { skip_tests: 40, samples: 30, bursts: 6, bisection_steps: 12, hits: 1 };
     let work: Vec<Work> =
         (0..300).map(|i| if i % 50 < 5 { hard } else { Work::default() }).collect();
     let cycles = recurrence(&chain, &work, Sink::Ready);
@@ -133,7 +133,7 @@ fn stepper_work(chain: &Chain, work: Work) -> u32 {
 fn a_rays_work_is_the_sum_of_its_parts() {
     let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]"]);
     let memory = 2;
-    let work = Work { trials: 3, samples: 5, groups: 2, bisection_steps: 4, hits: 1 };
+    let work = Work { skip_tests: 3, samples: 5, bursts: 2, bisection_steps: 4, hits: 1 };
     let answer = memory + LERP_LATENCY;
     let expected = RAY_START + 3 * (1 + memory) + 5 + 2 * answer + 4 * (1 + answer) + RAY_END;
     assert_eq!(stepper_work(&chain, work), expected);

@@ -1,7 +1,7 @@
 // The ray stepper: the first sample of a ray under the surface (docs/units/stepper.md).
 //
 // One ray at a time, as a state machine; its work on a ray takes
-// 4 + trials (1 + M) + samples R + groups (N + 5) + bisection steps (R + N + 5) + hits 2 cycles with
+// 4 + skip tests (1 + M) + samples R + bursts (N + 5) + bisection steps (R + N + 5) + hits 2 cycles with
 // N = max(M, 2), on maps with holes 2 R + N + 5 more per hit (docs/cycles.md). Here is what happens when.
 // The step is made by `ray_setup`, places are in `ray_walk`, the count of samples and what follows in
 // `walk_plan`; `skip_test` and `sample_burst` ask, `bisection` counts the bisection steps behind a hit, and
@@ -80,7 +80,7 @@ module stepper #(
   localparam logic [3:0] SCALE = 4'd1;  // finds its largest component
   localparam logic [3:0] STEP = 4'd2;  // makes its step
   localparam logic [3:0] START = 4'd3;  // starts its walk
-  localparam logic [3:0] TRIAL = 4'd4;  // asks for a bound
+  localparam logic [3:0] SKIP = 4'd4;  // asks for a bound
   localparam logic [3:0] BOUND = 4'd5;  // waits for it, and jumps or not
   localparam logic [3:0] SAMPLE = 4'd6;  // a burst of samples streams
   localparam logic [3:0] AIM = 4'd7;  // takes the distance of the hit
@@ -94,7 +94,7 @@ module stepper #(
   logic takes, starts, tries, waits, streams, aims, halves, rims;
   assign takes = state == IDLE;
   assign starts = state == START;
-  assign tries = state == TRIAL;
+  assign tries = state == SKIP;
   assign waits = state == BOUND;
   assign streams = state == SAMPLE;
   assign aims = state == AIM;
@@ -155,7 +155,7 @@ module stepper #(
   logic [25:0] remaining, remaining_next, remaining_ahead;
   logic signed [7:0] ahead_leading;
   logic [4:0] level;
-  logic trial_follows;
+  logic skip_test_follows;
   logic [6:0] run;
   logic tag_last, tag_over;
   logic [3:0] walk_on;
@@ -163,11 +163,11 @@ module stepper #(
   walk_plan plan (
       .clock(clock), .fineness(fineness), .last(last), .skipping(skipping),
       .pyramid_top(pyramid_top), .starts(starts), .tries(tries), .waits(waits),
-      .bounded(bound_valid), .clear(clear), .passes(streams && answered), .ends_group(tag_last),
+      .bounded(bound_valid), .clear(clear), .passes(streams && answered), .ends_burst(tag_last),
       .remaining(remaining), .remaining_next(remaining_next), .remaining_ahead(remaining_ahead),
       .ahead_leading(ahead_leading), .level(level), .jump_log2(jump_log2),
-      .trial_follows(trial_follows), .run(run));
-  assign walk_on = trial_follows ? TRIAL : SAMPLE;
+      .skip_test_follows(skip_test_follows), .run(run));
+  assign walk_on = skip_test_follows ? SKIP : SAMPLE;
 
   // ---- The skip test.
   logic none;
@@ -253,7 +253,7 @@ module stepper #(
         SCALE: state <= STEP;
         STEP: state <= START;
         START: state <= put ? IDLE : walk_on;
-        TRIAL: state <= BOUND;
+        SKIP: state <= BOUND;
         BOUND: if (bound_valid) state <= put ? IDLE : walk_on;
         SAMPLE: if (ends) state <= hits ? AIM : put ? IDLE : walk_on;
         AIM: state <= bisects ? HALVE : void_bits ? RIM : PLACE;

@@ -217,7 +217,7 @@ const STEPPER: Proof = Proof {
         "terraline_pkg",
         "leading_one",
         "bisection",
-        "next_trial",
+        "next_skip_test",
         "ray_axis",
         "ray_step",
         "ray_end",
@@ -244,7 +244,7 @@ fn jumps_stay_within_the_remaining_samples() {
         return;
     }
     let proof = Proof { parameters: &[("PART", 0), ("JUMP", 4)], ..STEPPER };
-    proof.holds(9, &["cover_far", "cover_group"]);
+    proof.holds(9, &["cover_far", "cover_burst"]);
     // A jump of twice the samples that remain.
     proof.fails_with(("walk_plan", ">= jump_length << 1", ">= jump_length"));
 }

@@ -123,13 +123,13 @@ pub fn markdown() -> String {
          | projector | 1 | 1 | 2 |\n\
          | divider, array | 1 | bits + {DIVIDER_ENDS} | bits + {} |\n\
          | divider, serial | bits + {DIVIDER_ENDS} | 1 | 2 |\n\
-         | stepper | {RAY_START} + trials·(1 + M) + samples·R + groups·(N + {LERP_LATENCY}) + \
+         | stepper | {RAY_START} + skip_tests·(1 + M) + samples·R + bursts·(N + {LERP_LATENCY}) + \
          bisection_steps·(R + N + {LERP_LATENCY}) + hits·({RAY_END} + H) | 1 | 2 |\n\
          | interpolator | R | N + {} | N + {} |\n\
          | shader, checker | 1 | {} | {} |\n\
          | frame | 1 | 0 | 1 |\n\n\
          R, reads of the height memory per interpolation: 1 cycle for 2×2 nodes, 4 for 3×3. A \
-         group is a run of up to 2^k samples streamed through the interpolator. H is 2R + N + \
+         burst is a run of up to 2^k samples streamed through the interpolator. H is 2R + N + \
          {LERP_LATENCY} on a map with holes, else 0. N is the larger of M and {KERNEL_LATENCY}, the cycles \
          of kernel ROM and blend.\n",
         DIVIDER_ENDS + 1,

@@ -59,11 +59,11 @@ pub struct Explanation {
     pub oracle_hit: &'static str,
     /// Index of the sample that hit.
     pub steps: u32,
-    /// Skip tests in fixed point.
-    pub trials: u32,
-    /// See `trials`.
+    /// Skip tests of the pyramid, in fixed point.
+    pub skip_tests: u32,
+    /// Samples tested on the walk, in fixed point.
     pub samples: u32,
-    /// See `trials`.
+    /// Bisection steps behind the hit, in fixed point.
     pub bisection_steps: u32,
     /// sRGB bytes: fixed.
     pub color: [u8; 3],
@@ -125,7 +125,7 @@ impl Machine<'_> {
             real_hit: real.hit.name(),
             oracle_hit: sighting.hit.name(),
             steps: fixed.steps,
-            trials: fixed.work.trials,
+            skip_tests: fixed.work.skip_tests,
             samples: fixed.work.samples,
             bisection_steps: fixed.work.bisection_steps,
             color: fixed.color,

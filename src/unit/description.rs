@@ -33,30 +33,30 @@ pub struct Description {
 pub struct Cycles {
     /// On every item.
     pub item: u32,
-    /// And on each of its trials.
-    pub trial: u32,
-    /// Samples.
+    /// On each of its skip tests.
+    pub skip_test: u32,
+    /// On each sample of its bursts.
     pub sample: u32,
-    /// Groups of samples.
-    pub group: u32,
-    /// Bisection steps.
+    /// On each of its sample bursts, besides the samples.
+    pub burst: u32,
+    /// On each of its bisection steps.
     pub bisection_step: u32,
-    /// Hits.
+    /// On its hit.
     pub hit: u32,
 }
 
 impl Cycles {
     /// The same number of cycles on every item.
     pub const fn every(item: u32) -> Self {
-        Self { item, trial: 0, sample: 0, group: 0, bisection_step: 0, hit: 0 }
+        Self { item, skip_test: 0, sample: 0, burst: 0, bisection_step: 0, hit: 0 }
     }
 
     /// On an item for which the stepper did so much.
     pub fn of(self, work: Work) -> u32 {
         self.item
-            + work.trials * self.trial
+            + work.skip_tests * self.skip_test
             + work.samples * self.sample
-            + work.groups * self.group
+            + work.bursts * self.burst
             + work.bisection_steps * self.bisection_step
             + work.hits * self.hit
     }

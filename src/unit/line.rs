@@ -23,12 +23,12 @@ pub enum Entry {
 /// What the stepper did for a pixel; its cycles follow from it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Jumps tried against the pyramid.
-    pub trials: u32,
+    /// Skip tests: jumps tried against the pyramid.
+    pub skip_tests: u32,
     /// Samples of the ray compared with the surface.
     pub samples: u32,
-    /// Runs of samples streamed through the interpolator.
-    pub groups: u32,
+    /// Sample bursts: runs of samples streamed through the interpolator.
+    pub bursts: u32,
     /// Bisection steps behind the hit.
     pub bisection_steps: u32,
     /// Hits: one, or none.

@@ -1,7 +1,7 @@
 //! The skip pyramid: for every block of every level, a bound that no surface within a jump's
 //! reach exceeds.
 //!
-//! *In hardware*: one memory with its own port, one read per trial. Level m has blocks of 2^m
+//! *In hardware*: one memory with its own port, one read per skip test. Level m has blocks of 2^m
 //! cells. The bound of block b holds for every place that a ray in the block can reach with a jump
 //! of up to 2^m cells per axis: it is the highest of the nodes with index in
 //! `[(b−1)·2^m − r, (b+2)·2^m + r]`, r = 0 for kernels over 2×2 nodes and 1 over 3×3 (equation 21

@@ -61,17 +61,17 @@ pub const RAY_START: u32 = 4;
 /// how many they are, and one to place it.
 pub const RAY_END: u32 = 2;
 
-/// Cycles over a map whose interpolations take so many cycles of reading: every trial waits for the
-/// pyramid, samples stream through the interpolation in groups, bisection steps wait for each other. With
-/// holes, the bits of the two places between which a hit lies are read once more.
+/// Cycles over a map whose interpolations take so many cycles of reading: every skip test waits for
+/// the pyramid, samples stream through the interpolation in bursts, bisection steps wait for each other.
+/// With holes, the bits of the two places between which a hit lies are read once more.
 pub const fn timing(reads: u32, void_bits: bool, memory_latency: u32) -> Timing {
     let answer = interpolator::height_latency(memory_latency);
     let rim = if void_bits { 2 * reads + answer } else { 0 };
     let work = Cycles {
         item: RAY_START,
-        trial: 1 + memory_latency,
+        skip_test: 1 + memory_latency,
         sample: reads,
-        group: answer,
+        burst: answer,
         bisection_step: reads + answer,
         hit: RAY_END + rim,
     };
@@ -311,7 +311,7 @@ impl<W: World> Stepper<W> {
             if let Some(pyramid) = &self.pyramid {
                 let jump = 1 << (level + self.fineness);
                 if jump <= self.last - index {
-                    work.trials += 1;
+                    work.skip_tests += 1;
                     let ahead = place.plus(step.doubled(level + self.fineness));
                     let [i, j] = place.cell(here);
                     let there = at_sample(site, index + jump);
@@ -332,7 +332,7 @@ impl<W: World> Stepper<W> {
                 // No jump is clear: test the samples of one cell before trying again.
                 run = (1 << self.fineness).min(self.last - index);
             }
-            work.groups += 1;
+            work.bursts += 1;
             for _ in 0..run {
                 place = place.plus(step);
                 index += 1;
@@ -490,7 +490,7 @@ impl<W: Interpolating> Unit<W> for Stepper<W> {
         let each = self.surface.reads_per_height();
         let interpolations = u64::from(work.samples + work.bisection_steps);
         Reads {
-            memory: u64::from(work.trials) + interpolations * each.memory,
+            memory: u64::from(work.skip_tests) + interpolations * each.memory,
             table: interpolations * each.table,
         }
     }

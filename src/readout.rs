@@ -21,7 +21,7 @@ impl<'a> Reader<'a> {
         Self { plan }
     }
 
-    /// Pixel `i` of a line that met something; `None` for sky and far.
+    /// Pixel `i` of a line that met something; `None` for sky and out of range.
     pub fn pixel<W: Open>(&self, line: &Line<W>, i: usize) -> Option<Pixel> {
         if !matches!(line.hit[i], Hit::Surface | Hit::Side) {
             return None;

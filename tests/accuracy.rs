@@ -147,7 +147,7 @@ fn random_scenes_keep_their_bounds() {
     let count = |sheet| all.iter().filter(|p| p.sheet == sheet).count();
     let (same, silhouettes) = (count(Sheet::Same), count(Sheet::Silhouette));
     let total = Spread::of(all.iter().map(|p| p.total_px));
-    // Far and sky have colours of their own here, which the oracle parts elsewhere.
+    // Out of range and sky have colours of their own here, which the oracle parts elsewhere.
     let met = || all.iter().filter(|p| p.sheet != Sheet::Empty);
     let close = met().filter(|p| p.color <= 2).count() as f64 / met().count() as f64;
     println!("{same} same sheet, {silhouettes} silhouettes, {total:?}, colour {close:.5}");

@@ -43,12 +43,12 @@ module bisection #(
   // Of coefficients alone: bisection steps where the leading one is in the last place, places from which on
   // there are none, and whether there are none at all.
   logic signed [9:0] reach, wanted;
-  logic [W-1:0] too_far;
+  logic [W-1:0] beyond;
   logic never;
 
   assign reach = 10'(bias) + 10'(POINT);
   always_ff @(posedge clock) begin
-    for (int at = 0; at < W; at++) too_far[at] <= reach <= $signed(10'(at));
+    for (int at = 0; at < W; at++) beyond[at] <= reach <= $signed(10'(at));
     never <= cap == '0 || (!fixed && reach < 0);
   end
 
@@ -57,7 +57,7 @@ module bisection #(
               | (away_z < 0 ? toward_z : away_z);
     leading_2 <= leading;
   end
-  assign any = !never && (fixed || (distance & too_far) == '0);
+  assign any = !never && (fixed || (distance & beyond) == '0);
   assign wanted = reach - 10'(leading_2);
   assign times = fixed || wanted > $signed({4'b0, cap}) ? cap : wanted[5:0];
 endmodule

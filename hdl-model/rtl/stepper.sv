@@ -13,61 +13,61 @@ module stepper #(
     parameter int WIDE = 0  // words of 64 bits, not 32
 ) (
     input  logic                                    clock,
-    input  logic                                    reset,           // forgets all rays
+    input  logic                                    reset,            // forgets all rays
     // Coefficients
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_x,           // the eye, x in cells
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_y,           // y in height units
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_z,           // z in cells
-    input  logic                                    from_eye,        // rays start at the eye
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] highest,         // the highest node
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] base,            // base of the block under the map
-    input  logic        [                      2:0] fineness,        // k: steps of at most 2^-k cells
-    input  logic        [                     25:0] last,            // index of the last sample
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_x,            // the eye, x in cells
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_y,            // y in height units
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_z,            // z in cells
+    input  logic                                    from_eye,         // rays start at the eye
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] highest,          // the highest node
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] base,             // base of the block under the map
+    input  logic        [                      2:0] fineness,         // k: steps of at most 2^-k cells
+    input  logic        [                     25:0] last,             // index of the last sample
     input  logic                                    bisection_fixed,  // always bisection_cap bisection steps
     input  logic signed [                      7:0] bisection_bias,   // bisection steps at distance one
     input  logic        [                      5:0] bisection_cap,    // most bisection steps
-    input  logic                                    skipping,        // the pyramid is fitted
-    input  logic        [                      4:0] pyramid_top,     // its highest level
-    input  logic                                    beyond_sky,      // out of range is sky
-    input  logic        [(WIDE == 1 ? 26 : 12)-1:0] map_columns,     // nodes in x
-    input  logic        [(WIDE == 1 ? 26 : 12)-1:0] map_rows,        // nodes in z
-    input  logic                                    map_ends,        // the map ends at its edge
-    input  logic                                    sides,           // the map has sides
-    input  logic                                    void_bits,       // nodes may have no data
+    input  logic                                    skipping,         // the pyramid is fitted
+    input  logic        [                      4:0] pyramid_top,      // its highest level
+    input  logic                                    beyond_sky,       // out of range is sky
+    input  logic        [(WIDE == 1 ? 26 : 12)-1:0] map_columns,      // nodes in x
+    input  logic        [(WIDE == 1 ? 26 : 12)-1:0] map_rows,         // nodes in z
+    input  logic                                    map_ends,         // the map ends at its edge
+    input  logic                                    sides,            // the map has sides
+    input  logic                                    void_bits,        // nodes may have no data
     // Items from the divider, or from the projector where rays start at the eye
-    input  logic                                    in_valid,        // an item is there
-    output logic                                    in_ready,        // it is taken at this edge
-    input  logic        [                      1:0] in_entry,        // 0 met, 1 sky, 2 out of range
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_x,       // view vector, x
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_y,       // y
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_z,       // z
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_ground_x,     // where the ray enters, x
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_ground_z,     // z
+    input  logic                                    in_valid,         // an item is there
+    output logic                                    in_ready,         // it is taken at this edge
+    input  logic        [                      1:0] in_entry,         // 0 met, 1 sky, 2 out of range
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_x,        // view vector, x
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_y,        // y
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_z,        // z
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_ground_x,      // where the ray enters, x
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_ground_z,      // z
     // Memory of the pyramid's bounds
-    output logic                                    bound_read,      // an address is there
-    output logic        [                      4:0] bound_level,     // level
-    output logic        [(WIDE == 1 ? 26 : 12)-1:0] bound_column,    // stored bound, x
-    output logic        [(WIDE == 1 ? 26 : 12)-1:0] bound_row,       // z
-    input  logic                                    bound_valid,     // M cycles later: the bound is there
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] bound,           // height units
+    output logic                                    bound_read,       // an address is there
+    output logic        [                      4:0] bound_level,      // level
+    output logic        [(WIDE == 1 ? 26 : 12)-1:0] bound_column,     // stored bound, x
+    output logic        [(WIDE == 1 ? 26 : 12)-1:0] bound_row,        // z
+    input  logic                                    bound_valid,      // M cycles later: the bound is there
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] bound,            // height units
     // Samples to the interpolation, and its answers
-    output logic                                    sample_valid,    // a sample is there
-    output logic                                    sample_first,    // in its first cycle
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] sample_x,        // place, x
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] sample_z,        // z
-    output logic        [                      2:0] sample_tag,      // goes along
-    input  logic                                    sample_last,     // in its last cycle
-    input  logic                                    answer_valid,    // an answer is there
-    input  logic                                    answer_exists,   // there is a surface at the place
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] answer_surface,  // its height
-    input  logic        [                      2:0] answer_tag,      // came along
+    output logic                                    sample_valid,     // a sample is there
+    output logic                                    sample_first,     // in its first cycle
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] sample_x,         // place, x
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] sample_z,         // z
+    output logic        [                      2:0] sample_tag,       // goes along
+    input  logic                                    sample_last,      // in its last cycle
+    input  logic                                    answer_valid,     // an answer is there
+    input  logic                                    answer_exists,    // there is a surface at the place
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] answer_surface,   // its height
+    input  logic        [                      2:0] answer_tag,       // came along
     // Items to the interpolator
-    output logic                                    out_valid,       // an item is there
-    input  logic                                    out_ready,       // it is taken at this edge
-    output logic        [                      1:0] out_hit,         // 0 sky, 1 surface, 2 side, 3 out of range
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] out_ground_x,    // place of the hit, x
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] out_ground_z,    // z
-    output logic        [                     25:0] out_steps        // index of the sample that hit
+    output logic                                    out_valid,        // an item is there
+    input  logic                                    out_ready,        // it is taken at this edge
+    output logic        [                      1:0] out_hit,          // 0 sky, 1 surface, 2 side, 3 out of range
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] out_ground_x,     // place of the hit, x
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] out_ground_z,     // z
+    output logic        [                     25:0] out_steps         // index of the sample that hit
 );
   localparam int W = WIDE == 1 ? terraline_pkg::WIDE_WIDTH : terraline_pkg::NARROW_WIDTH;
   localparam int POINT = WIDE == 1 ? terraline_pkg::WIDE_POINT : terraline_pkg::NARROW_POINT;

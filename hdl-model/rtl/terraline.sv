@@ -58,10 +58,10 @@ module terraline #(
     output logic [       W-1:0] view_y,            // y
     output logic [       W-1:0] view_z,            // z
     output logic [       W-1:0] denominator,       // denominator
-    output logic [         1:0] entry,             // from the divider: 0 met, 1 sky, 2 far
+    output logic [         1:0] entry,             // from the divider: 0 met, 1 sky, 2 out of range
     output logic [       W-1:0] entry_x,           // where the ray enters, x
     output logic [       W-1:0] entry_z,           // z
-    output logic [         1:0] stepper_hit,          // from the stepper: 0 sky, 1 surface, 2 side, 3 far
+    output logic [         1:0] stepper_hit,          // from the stepper: 0 sky, 1 surface, 2 side, 3 out of range
     output logic [       W-1:0] ground_x,          // place of the hit, x
     output logic [       W-1:0] ground_z,          // z
     output logic [        25:0] steps,             // index of the sample that hit
@@ -117,7 +117,7 @@ module terraline #(
   logic signed [W-1:0] slope_scale_z;
   logic [6:0] memory_latency;
   logic [23:0] sky_color;
-  logic [23:0] far_color;
+  logic [23:0] out_of_range_color;
   logic [23:0] side_color;
   logic lit;
   logic signed [W-1:0] light_x;
@@ -188,7 +188,7 @@ module terraline #(
       .slope_scale_z(slope_scale_z),
       .memory_latency(memory_latency),
       .sky_color(sky_color),
-      .far_color(far_color),
+      .out_of_range_color(out_of_range_color),
       .side_color(side_color),
       .lit(lit),
       .light_x(light_x),
@@ -492,7 +492,7 @@ module terraline #(
         .clock(clock),
         .reset(reset),
         .sky_color(sky_color),
-        .far_color(far_color),
+        .out_of_range_color(out_of_range_color),
         .side_color(side_color),
         .lit(lit),
         .toward_x(light_x),
@@ -534,7 +534,7 @@ module terraline #(
         .clock(clock),
         .reset(reset),
         .sky_color(sky_color),
-        .far_color(far_color),
+        .out_of_range_color(out_of_range_color),
         .mean_red(mean_red),
         .mean_green(mean_green),
         .mean_blue(mean_blue),

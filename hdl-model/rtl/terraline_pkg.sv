@@ -92,7 +92,7 @@ package terraline_pkg;
   localparam int ADDRESS_SLOPE_SCALE_Z = 40;
   localparam int ADDRESS_MEMORY_LATENCY = 41;
   localparam int ADDRESS_SKY_COLOR = 42;
-  localparam int ADDRESS_FAR_COLOR = 43;
+  localparam int ADDRESS_OUT_OF_RANGE_COLOR = 43;
   localparam int ADDRESS_SIDE_COLOR = 44;
   localparam int ADDRESS_LIT = 45;
   localparam int ADDRESS_LIGHT_X = 46;

@@ -28,7 +28,7 @@ const TAG: u64 = 0xffff;
 fn load_coefficients<W: Stock>(rtl: &mut Model, checker: &Checker<W>) {
     let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
     set("sky_color", packed(checker.pixel.sky) as i64);
-    set("far_color", packed(checker.pixel.out_of_range) as i64);
+    set("out_of_range_color", packed(checker.pixel.out_of_range) as i64);
     for (at, channel) in ["red", "green", "blue"].into_iter().enumerate() {
         set(&format!("mean_{channel}"), bits(checker.mean[at]));
         set(&format!("swing_{channel}"), bits(checker.swing[at]));
@@ -229,7 +229,7 @@ fn hostile<W: Stock>(world: W, seed: u64) {
         for i in 0..line.len() {
             line.entry[i] = match random.within(0, 7) {
                 0 => Entry::Sky,
-                1 => Entry::Far,
+                1 => Entry::OutOfRange,
                 _ => Entry::Met,
             };
             let full = checker.full_from.map_or(0, bits);

@@ -77,7 +77,7 @@ fn load_ramp<W: Stock>(rtl: &mut Model, ramp: &Ramp<W>, strobe: &str) {
 fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &Shader<W>) {
     let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
     set("sky_color", packed(shader.pixel.sky) as i64);
-    set("far_color", packed(shader.pixel.out_of_range) as i64);
+    set("out_of_range_color", packed(shader.pixel.out_of_range) as i64);
     set("side_color", packed(shader.pixel.side) as i64);
     load_light(rtl, shader.light.as_ref(), "load_rsqrt");
     load_ramp(rtl, &shader.ramp, "load_ramp");
@@ -274,7 +274,7 @@ fn hostile<W: Stock>(world: W, seed: u64) {
             line.hit[i] = match random.within(0, 3 + flat) {
                 0 => Hit::Sky,
                 2 => Hit::Side,
-                3 => Hit::Far,
+                3 => Hit::OutOfRange,
                 _ => Hit::Surface,
             };
             // Last bits show where a channel is about to round the other way.

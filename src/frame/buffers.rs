@@ -225,7 +225,7 @@ macro_rules! table {
 
 table! {
     always {
-        hit: "outcome: 0 sky, 1 surface, 2 side of the map or of a hole, 3 far: beyond the registers' range",
+        hit: "outcome: 0 sky, 1 surface, 2 side of the map or of a hole, 3 out of range: beyond the registers' range",
         color: "sRGB"
     }
     on request {
@@ -263,7 +263,7 @@ pub fn markdown() -> String {
     let mut out = String::from(
         "# Buffers\n\n\
          `render --buffers OUT.npz` writes numpy arrays of shape [lines, columns], or [lines, columns, 3], from\n\
-         the top left. Misses (sky, far) are NaN in floats and 0 in integers. This page is generated from\n\
+         the top left. Misses (sky, out of range) are NaN in floats and 0 in integers. This page is generated from\n\
          the table in `src/frame/buffers.rs`.\n\n\
          | array | type | given by | holds |\n|---|---|---|---|\n",
     );

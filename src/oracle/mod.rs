@@ -91,7 +91,7 @@ impl Oracle {
     }
 
     /// Follow rays over a map without end as far as `reach_cells` from the eye, measured along the
-    /// axis on which the ray moves most; what lies beyond is [`Hit::Far`].
+    /// axis on which the ray moves most; what lies beyond is [`Hit::OutOfRange`].
     #[must_use]
     pub fn with_reach_cells(mut self, reach_cells: f64) -> Self {
         self.reach_cells = reach_cells;

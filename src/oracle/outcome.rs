@@ -94,7 +94,7 @@ pub fn first_entry<'a>(ground: &'a Ground, ray: &Ray, reach_cells: f64) -> Outco
     }
     let rises_clear = if rise > 0.0 { top <= to } else { rise == 0.0 && y >= high };
     let falls_clear = rise < 0.0 && track.reaches(1, ground.base()) <= to;
-    let hit = if ends || rises_clear || falls_clear { Hit::Sky } else { Hit::Far };
+    let hit = if ends || rises_clear || falls_clear { Hit::Sky } else { Hit::OutOfRange };
     Outcome::miss(hit, tangent)
 }
 

@@ -219,7 +219,7 @@ pub(super) fn stepper<W: Open>(
         beyond: if ends && quotient_range(world, walk.range) == walk.range {
             Hit::Sky
         } else {
-            Hit::Far
+            Hit::OutOfRange
         },
         sides: ends || heights.has_voids(),
         extent: ends.then(|| (heights.columns(), heights.rows())),

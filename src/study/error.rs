@@ -80,7 +80,7 @@ pub enum Sheet {
     Empty,
     /// Both hit, with no other crossing between.
     Same,
-    /// The machine says `Far`: what the oracle sees lies beyond the registers' range.
+    /// The machine says `OutOfRange`: what the oracle sees lies beyond the registers' range.
     Beyond,
     /// One hits and the other does not, they meet different kinds of surface, or another sheet.
     Silhouette,
@@ -227,12 +227,12 @@ fn one(oracle: &Oracle, line: u32, column: u32, fixed: Seen, real: Seen) -> Pixe
         height: f64::NAN,
         color,
     };
-    let misses = |hit| matches!(hit, Hit::Sky | Hit::Far);
+    let misses = |hit| matches!(hit, Hit::Sky | Hit::OutOfRange);
     if misses(fixed.hit) && misses(sighting.hit) {
         error.sheet = Sheet::Empty;
         return error;
     }
-    if fixed.hit == Hit::Far {
+    if fixed.hit == Hit::OutOfRange {
         error.sheet = Sheet::Beyond;
         return error;
     }
@@ -307,7 +307,7 @@ pub struct ErrorReport {
     pub same_sheet: usize,
     /// Silhouette pixels.
     pub silhouettes: usize,
-    /// Pixels that the machine calls far.
+    /// Pixels that the machine calls out of range.
     pub beyond: usize,
     /// Fixed point against the oracle, pixels.
     pub total_px: Option<Spread>,

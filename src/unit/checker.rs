@@ -94,7 +94,7 @@ impl<W: Shading> Unit<W> for Checker<W> {
         for i in 0..line.len() {
             (line.hit[i], line.color[i]) = match line.entry[i] {
                 Entry::Sky => (Hit::Sky, self.pixel.sky),
-                Entry::Far => (Hit::Far, self.pixel.out_of_range),
+                Entry::OutOfRange => (Hit::OutOfRange, self.pixel.out_of_range),
                 Entry::Met => {
                     let site = Site::pixel(line.number, line.column[i]);
                     let contrast = self.contrast(line.denominator[i], site);

@@ -164,7 +164,7 @@ coefficients! {
     BisectionCap "bisection_cap" Count(6), "and at most this many";
     Skipping "skipping" Flag, "1 where the pyramid is fitted";
     PyramidTop "pyramid_top" Count(5), "highest level of the pyramid";
-    BeyondSky "beyond_sky" Flag, "1 where an entry out of range is sky, else it is far";
+    BeyondSky "beyond_sky" Flag, "1 where an entry out of range is sky, else it stays out of range";
     MapColumns "map_columns" Nodes, "nodes of the map in x";
     MapRows "map_rows" Nodes, "nodes of the map in z";
     MapEdge "map_edge" Code, "beyond the edge: 0 the map ends, 1 its edge nodes go on, 2 it repeats";
@@ -179,7 +179,7 @@ coefficients! {
     SlopeScaleZ "slope_scale_z" Word(R::Weight), "the same, z";
     MemoryLatency "memory_latency" Count(7), "M: cycles from address to data";
     SkyColor "sky_color" Color, "colour where nothing is met";
-    FarColor "far_color" Color, "colour out of range";
+    OutOfRangeColor "out_of_range_color" Color, "colour out of range";
     SideColor "side_color" Color, "colour of the map's side";
     Lit "lit" Flag, "1 where the light is fitted";
     LightX "light_x" Word(R::Shade), "direction towards the light, times the diffuse share, x";

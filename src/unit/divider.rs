@@ -12,7 +12,7 @@
 //! | `view_x`, `view_z`, `denominator` | `entry`; `entry_x`, `entry_z` where it is `Met` |
 //!
 //! *Named outcomes*: a denominator that is not positive is `Sky`; a quotient out of range is
-//! `Far`. *Never*: wraps a quotient, divides by zero.
+//! `OutOfRange`. *Never*: wraps a quotient, divides by zero.
 
 use super::coefficient::{Bank, Coefficient as C};
 use super::line::{Entry, Wire};
@@ -106,7 +106,7 @@ impl<W: Dividing> Divider<W> {
                         line.entry_z[i] = self.eye_z + z;
                         Entry::Met
                     }
-                    _ => Entry::Far,
+                    _ => Entry::OutOfRange,
                 }
             } else {
                 Entry::Sky

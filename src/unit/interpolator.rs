@@ -335,7 +335,7 @@ impl<W: Interpolating> Unit<W> for Interpolator<W> {
         match hit {
             // Weights, and their derivatives.
             Hit::Surface | Hit::Side => Reads { memory, table: 2 * table },
-            Hit::Sky | Hit::Far => Reads::default(),
+            Hit::Sky | Hit::OutOfRange => Reads::default(),
         }
     }
 }

@@ -17,7 +17,7 @@ pub enum Entry {
     /// The denominator is not positive: the ray never meets the plane.
     Sky,
     /// The quotient is out of range.
-    Far,
+    OutOfRange,
 }
 
 /// What the stepper did for a pixel; its cycles follow from it.
@@ -186,8 +186,8 @@ macro_rules! wires {
                 match self {
                     $(Self::$wire => $meaning,)*
                     $(Self::$red | Self::$green | Self::$blue => "channel, 0 to 255",)*
-                    Self::Entry => "0 met, 1 sky, 2 far",
-                    Self::Hit => "0 sky, 1 surface, 2 side, 3 far",
+                    Self::Entry => "0 met, 1 sky, 2 out of range",
+                    Self::Hit => "0 sky, 1 surface, 2 side, 3 out of range",
                     Self::Steps => "index of the sample that hit",
                     Self::Color => "red, green, blue, a byte each",
                 }

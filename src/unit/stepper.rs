@@ -15,7 +15,7 @@
 //!
 //! *Named outcomes*: `Side` when the last clear place, after the bisection, lies outside the map or in
 //! a hole; `Sky` when the ray is out of the map and receding, above the highest node and rising, or
-//! outside the map or in a hole, under the base and falling; `Far` when the last index is reached.
+//! outside the map or in a hole, under the base and falling; `OutOfRange` when the last index is reached.
 //! *Never*: wraps a position (proved at set-up for the last index and the largest jump), passes a
 //! sample that might hit.
 
@@ -237,7 +237,7 @@ impl<W: World> Stepper<W> {
         match line.entry[i] {
             _ if self.from_eye => Some(self.eye()),
             Entry::Met => Some(Place { x: line.entry_x[i], y: self.top, z: line.entry_z[i] }),
-            Entry::Sky | Entry::Far => None,
+            Entry::Sky | Entry::OutOfRange => None,
         }
     }
 
@@ -305,7 +305,7 @@ impl<W: World> Stepper<W> {
                 return Walk { hit: Hit::Sky, place, index, work };
             }
             if index >= self.last {
-                return Walk { hit: Hit::Far, place, index, work };
+                return Walk { hit: Hit::OutOfRange, place, index, work };
             }
             let mut run = 1;
             if let Some(pyramid) = &self.pyramid {
@@ -441,7 +441,8 @@ impl<W: Interpolating> Unit<W> for Stepper<W> {
     fn run(&self, line: &mut Line<W>) {
         for i in 0..line.len() {
             let Some(start) = self.start(line, i) else {
-                line.hit[i] = if line.entry[i] == Entry::Far { self.beyond } else { Hit::Sky };
+                line.hit[i] =
+                    if line.entry[i] == Entry::OutOfRange { self.beyond } else { Hit::Sky };
                 line.steps[i] = 0;
                 line.work[i] = Work::default();
                 continue;

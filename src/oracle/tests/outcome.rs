@@ -130,7 +130,7 @@ fn maps_without_end_have_a_reach() {
             let seen = |x| sight(&map, kernel, eye, DVec3::new(x, 1.0, 5.0));
             assert_eq!(seen(104.0).hit, Hit::Surface);
             assert!((seen(-80.0).point.x + 80.0).abs() < 1e-11);
-            assert_eq!((seen(106.0).hit, seen(106.0).color), (Hit::Far, [200, 210, 220]));
+            assert_eq!((seen(106.0).hit, seen(106.0).color), (Hit::OutOfRange, [200, 210, 220]));
             let over = sight(&map, kernel, eye, DVec3::new(50.0, 3.1, 5.0));
             assert_eq!(over.hit, Hit::Sky);
         }

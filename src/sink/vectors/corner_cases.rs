@@ -232,7 +232,7 @@ impl<W: Complete> CornerCases<W> {
             (line.view_x[at], line.view_y[at], line.view_z[at]) = self.ray();
             line.entry[at] = match self.below(16) {
                 0 if !units.stepper.from_eye => Entry::Sky,
-                1 if !units.stepper.from_eye => Entry::Far,
+                1 if !units.stepper.from_eye => Entry::OutOfRange,
                 _ => Entry::Met,
             };
             let [x, z] = axes.map(|(register, eye, nodes)| {
@@ -294,7 +294,7 @@ impl<W: Complete> CornerCases<W> {
         match self.below(16) {
             0 => Hit::Sky,
             1 => Hit::Side,
-            2 => Hit::Far,
+            2 => Hit::OutOfRange,
             _ => Hit::Surface,
         }
     }
@@ -355,7 +355,7 @@ impl<W: Complete> CornerCases<W> {
         for at in 0..line.len() {
             line.entry[at] = match self.below(8) {
                 0 => Entry::Sky,
-                1 => Entry::Far,
+                1 => Entry::OutOfRange,
                 _ => Entry::Met,
             };
             line.denominator[at] = self.view(Register::Denominator, true);

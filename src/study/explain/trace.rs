@@ -109,7 +109,7 @@ impl WithSetup for Walk {
                 Entry::Sky => {
                     Some("the denominator is not positive: the ray does not meet the plane")
                 }
-                Entry::Far => Some("the quotient is out of range: the entry lies beyond it"),
+                Entry::OutOfRange => Some("the quotient is out of range: the entry lies beyond it"),
             };
         }
         let mut readings = Vec::new();
@@ -234,6 +234,6 @@ fn at_hole<W: Complete>(
         {
             Some("the ray leaves the map through a hole")
         }
-        Hit::Surface | Hit::Side | Hit::Sky | Hit::Far => None,
+        Hit::Surface | Hit::Side | Hit::Sky | Hit::OutOfRange => None,
     }
 }

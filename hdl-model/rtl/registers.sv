@@ -46,8 +46,8 @@ module registers #(
     output logic [1:0] map_edge,  // beyond the edge: 0 the map ends, 1 its edge nodes go on, 2 it repeats
     output logic sides,  // 1 where the map has sides, drawn down to the base
     output logic void_bits,  // 1 where nodes may have no data
-    output logic [1:0] form,  // weights: 0 the kernel's, 1 blended with the hat's, 2 the hat's, 3 over 3x3 nodes
-    output logic [5:0] blend_shift,  // places that a blend shifts the difference right
+    output logic [1:0] form,  // weights: 0 the kernel's, 1 toward the hat's, 2 the hat's, 3 over 3x3 nodes
+    output logic [5:0] deformation_shift,  // places that the difference to the hat is shifted right
     output logic [4:0] kernel_log2,  // the kernel tables have 2^log2 entries a cell, and one
     output logic slope_scaled,  // 1 where slopes have factors
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] slope_scale_x,  // factor on a slope, x: height unit over cell
@@ -116,7 +116,7 @@ module registers #(
         16'(terraline_pkg::ADDRESS_SIDES): sides <= load_data[0];
         16'(terraline_pkg::ADDRESS_VOID_BITS): void_bits <= load_data[0];
         16'(terraline_pkg::ADDRESS_FORM): form <= load_data[1:0];
-        16'(terraline_pkg::ADDRESS_BLEND_SHIFT): blend_shift <= load_data[5:0];
+        16'(terraline_pkg::ADDRESS_DEFORMATION_SHIFT): deformation_shift <= load_data[5:0];
         16'(terraline_pkg::ADDRESS_KERNEL_LOG2): kernel_log2 <= load_data[4:0];
         16'(terraline_pkg::ADDRESS_SLOPE_SCALED): slope_scaled <= load_data[0];
         16'(terraline_pkg::ADDRESS_SLOPE_SCALE_X): slope_scale_x <= load_data;

@@ -110,7 +110,7 @@ module terraline #(
   logic sides;
   logic void_bits;
   logic [1:0] form;
-  logic [5:0] blend_shift;
+  logic [5:0] deformation_shift;
   logic [4:0] kernel_log2;
   logic slope_scaled;
   logic signed [W-1:0] slope_scale_x;
@@ -181,7 +181,7 @@ module terraline #(
       .sides(sides),
       .void_bits(void_bits),
       .form(form),
-      .blend_shift(blend_shift),
+      .deformation_shift(deformation_shift),
       .kernel_log2(kernel_log2),
       .slope_scaled(slope_scaled),
       .slope_scale_x(slope_scale_x),
@@ -368,7 +368,7 @@ module terraline #(
         .clock(clock),
         .reset(reset),
         .form(form),
-        .blend_shift(blend_shift),
+        .deformation_shift(deformation_shift),
         .table_log2(kernel_log2),
         .map_columns(map_columns),
         .map_rows(map_rows),
@@ -450,7 +450,7 @@ module terraline #(
         .clock(clock),
         .reset(reset),
         .form(form),
-        .blend_shift(blend_shift),
+        .deformation_shift(deformation_shift),
         .table_log2(kernel_log2),
         .map_columns(map_columns),
         .map_rows(map_rows),

@@ -58,7 +58,7 @@ pub fn package() -> String {
             "cycles to turn a view vector into a step and to begin with it",
         ),
         ("RAY_END", stepper::RAY_END, "cycles of a hit besides its bisection steps"),
-        ("KERNEL_LATENCY", kernel_rom::LATENCY, "cycles of kernel ROM and blend"),
+        ("KERNEL_LATENCY", kernel_rom::LATENCY, "cycles of kernel ROM and hat weight"),
         ("LERP_LATENCY", interpolator::LERP_LATENCY, "stages of a height behind nodes and weights"),
         ("SLOPE_LATENCY", interpolator::SLOPE_LATENCY, "stages of the slopes' factors"),
         ("SHADER_LATENCY", shader::TIMING.latency, "L of the shader"),

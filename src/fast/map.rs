@@ -127,12 +127,12 @@ fn maxima<T: Readout>(heights: &HeightMemory<T>, top: i32, form: Form, point: u3
     Maxima::new(&heights.with_words(coarse), i32::from(form == Form::Stretch), places)
 }
 
-/// Straightness of a weight over 2×2 nodes (equation 33); its blend's shift is a factor on what the
+/// Straightness of a weight over 2×2 nodes (equation 33); deformation 2 has a factor on what the
 /// kernel differs from the hat by.
 fn bend(kernel: &Kernel, form: Form) -> Bend {
     let share = match form {
         Form::Hat => 0.0,
-        Form::Blend(shift) => libm::exp2(-f64::from(shift)),
+        Form::TowardHat(shift) => libm::exp2(-f64::from(shift)),
         Form::Plain | Form::Stretch => 1.0,
     };
     let steepest = 1.0 + share * (kernel::steepest(kernel.shape) - 1.0);

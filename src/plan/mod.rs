@@ -115,7 +115,7 @@ pub struct Fitted {
     pub divider: bool,
     /// Skip pyramid.
     pub pyramid: bool,
-    /// Kernel ROM, with the hat blend.
+    /// Kernel ROM, with the weight toward the hat.
     pub kernel_rom: bool,
     /// The bits that mark nodes without data.
     pub void_bits: bool,
@@ -221,7 +221,7 @@ pub(crate) fn kernel_is_hat(scene: &Scene, words: WordClass) -> bool {
     let last = if scene.formats.is_empty() { words.width - 1 } else { ALL_BITS };
     match kernel.deformation {
         Deformation::None => kernel.shape == KernelShape::Hat,
-        Deformation::Blend { weight_shift } => {
+        Deformation::TowardHat { weight_shift } => {
             kernel.shape == KernelShape::Hat || weight_shift >= last
         }
         Deformation::Stretch => false,

@@ -71,7 +71,7 @@ struct Needs {
     horizontal: f64,
     /// Largest magnitude of a ray's height.
     vertical: f64,
-    /// The relief with three bits to spare, for differences and slopes per cell.
+    /// The height range with three bits to spare, for differences and slopes per cell.
     heights: f64,
     /// Largest factor or slope on cells that are not squares of the height unit.
     steepest: f64,
@@ -144,7 +144,7 @@ impl WalkPlan {
         let eye_z = geometry.eye.z / terrain.cell.y;
 
         let mut unit = (terrain.cell.x * terrain.cell.y).sqrt();
-        // The relief and its slopes (kernel slopes are at most 2) need room in the height words.
+        // The height range and its slopes (kernel slopes are at most 2) need room in the height words.
         while (highest - lowest) / unit * 8.0 > words.ground_limit() {
             unit *= 2.0;
         }

@@ -167,7 +167,7 @@ impl<W: World> Describe<'_, W> {
                 fitted.kernel_rom,
                 kernel_why,
                 &[R::Weight, R::WeightSlope],
-                "the tables, two reads and the blend's additions per interpolation",
+                "the tables, two reads and the hat weight's additions per interpolation",
             ),
             self.unit(
                 "void_bits",

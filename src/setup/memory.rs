@@ -117,10 +117,10 @@ fn form(kernel: &Kernel, plan: &Plan) -> Form {
         _ if !plan.fitted.kernel_rom => Form::Hat,
         Deformation::Stretch => Form::Stretch,
         // The general datapath: a shift by all bits is the hat, one by zero the kernel.
-        _ if plan.full && kernel.shape == KernelShape::Hat => Form::Blend(ALL_BITS),
-        Deformation::None if plan.full => Form::Blend(0),
+        _ if plan.full && kernel.shape == KernelShape::Hat => Form::TowardHat(ALL_BITS),
+        Deformation::None if plan.full => Form::TowardHat(0),
         Deformation::None => Form::Plain,
-        Deformation::Blend { weight_shift } => Form::Blend(weight_shift.min(ALL_BITS)),
+        Deformation::TowardHat { weight_shift } => Form::TowardHat(weight_shift.min(ALL_BITS)),
     }
 }
 

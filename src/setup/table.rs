@@ -131,7 +131,7 @@ pub fn markdown() -> String {
          R, reads of the height memory per interpolation: 1 cycle for 2×2 nodes, 4 for 3×3. A \
          burst is a run of up to 2^k samples streamed through the interpolator. H is 2R + N + \
          {LERP_LATENCY} on a map with holes, else 0. N is the larger of M and {KERNEL_LATENCY}, the cycles \
-         of kernel ROM and blend.\n",
+         of kernel ROM and hat weight.\n",
         DIVIDER_ENDS + 1,
         LERP_LATENCY + SLOPE_LATENCY,
         LERP_LATENCY + SLOPE_LATENCY + 1,

@@ -170,8 +170,8 @@ coefficients! {
     MapEdge "map_edge" Code, "beyond the edge: 0 the map ends, 1 its edge nodes go on, 2 it repeats";
     Sides "sides" Flag, "1 where the map has sides, drawn down to the base";
     VoidBits "void_bits" Flag, "1 where nodes may have no data";
-    Form "form" Code, "weights: 0 the kernel's, 1 blended with the hat's, 2 the hat's, 3 over 3x3 nodes";
-    BlendShift "blend_shift" Count(6), "places that a blend shifts the difference right";
+    Form "form" Code, "weights: 0 the kernel's, 1 toward the hat's, 2 the hat's, 3 over 3x3 nodes";
+    DeformationShift "deformation_shift" Count(6), "places that the difference to the hat is shifted right";
     KernelLog2 "kernel_log2" Count(5), "the kernel tables have 2^log2 entries a cell, and one";
     WeightOne "weight_one" Word(R::Weight), "the weight one";
     SlopeScaled "slope_scaled" Flag, "1 where slopes have factors";

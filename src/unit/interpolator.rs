@@ -1,6 +1,6 @@
 //! The interpolator: surface height and slopes at a place on the ground, by finite functions.
 //!
-//! *In hardware*: the kernel ROM, the hat blend (a subtraction, a shift, an addition) and
+//! *In hardware*: the kernel ROM, the weight toward the hat (a subtraction, a shift, an addition) and
 //! shift-and-add multipliers with one rounding each.
 //!
 //! - 2×2 nodes: `A = h2 + (h1−h2)·w(zd)`, `B = h4 + (h3−h4)·w(zd)`, `y = B + (A−B)·w(xd)`:
@@ -78,7 +78,7 @@ pub enum Form {
     /// 2×2 nodes, the weight is the kernel's.
     Plain,
     /// 2×2 nodes, the weight is the hat plus the difference to the kernel shifted right.
-    Blend(u32),
+    TowardHat(u32),
     /// 2×2 nodes, the weight is the hat's: no ROM is fitted.
     Hat,
     /// 3×3 nodes around the nearest one.
@@ -142,7 +142,7 @@ impl<W: Interpolating> Interpolator<W> {
         let site = site.at(Register::Weight);
         match (&self.form, &self.rom) {
             // Equation 16; thesis 2.59 to 2.61.
-            (Form::Blend(shift), Some(rom)) => {
+            (Form::TowardHat(shift), Some(rom)) => {
                 let kernel = fraction.look_up(rom.weights(), site);
                 self.hat(fraction, site).toward(kernel, *shift)
             }
@@ -163,7 +163,7 @@ impl<W: Interpolating> Interpolator<W> {
         let weight = self.weight(fraction, site);
         let site = site.at(Register::WeightSlope);
         let slope = match (&self.form, &self.rom) {
-            (Form::Blend(shift), Some(rom)) => {
+            (Form::TowardHat(shift), Some(rom)) => {
                 // The hat falls with slope one.
                 let slope = fraction.look_up(rom.slopes(), site);
                 (slope + self.one).shift_toward_zero(*shift) - self.one
@@ -308,12 +308,12 @@ impl<W: Interpolating> Unit<W> for Interpolator<W> {
     fn coefficients(&self, bank: &mut Bank<W>) {
         let (form, shift) = match self.form {
             Form::Plain => (0, 0),
-            Form::Blend(shift) => (1, shift),
+            Form::TowardHat(shift) => (1, shift),
             Form::Hat => (2, 0),
             Form::Stretch => (3, 0),
         };
         bank.number(C::Form, form);
-        bank.number(C::BlendShift, shift);
+        bank.number(C::DeformationShift, shift);
         bank.weight(C::WeightOne, self.one);
         self.heights.coefficients(bank);
         if let Some(rom) = &self.rom {

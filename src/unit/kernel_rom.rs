@@ -6,7 +6,7 @@
 
 use crate::word::{Table, Word};
 
-/// Cycles from a place to the weights of its nodes: kernel ROM and blend. They pass beside the
+/// Cycles from a place to the weights of its nodes: kernel ROM and hat weight. They pass beside the
 /// memory's own; one that is faster waits for them.
 pub const LATENCY: u32 = 2;
 

@@ -65,7 +65,7 @@ impl Session {
         let mut session = Self {
             first: (scene.camera.clone(), scene.screens[0].clone()),
             weight_shift: match scene.kernel.deformation {
-                Deformation::Blend { weight_shift } => weight_shift,
+                Deformation::TowardHat { weight_shift } => weight_shift,
                 _ => 2,
             },
             scene,
@@ -289,8 +289,8 @@ impl Session {
         let weight_shift = self.weight_shift;
         self.scene.kernel.deformation = match self.scene.kernel.deformation {
             Deformation::None => Deformation::Stretch,
-            Deformation::Stretch => Deformation::Blend { weight_shift },
-            Deformation::Blend { .. } => Deformation::None,
+            Deformation::Stretch => Deformation::TowardHat { weight_shift },
+            Deformation::TowardHat { .. } => Deformation::None,
         };
         self.kernel_changed();
     }
@@ -299,7 +299,7 @@ impl Session {
         if !self.has_kernel() {
             return;
         }
-        let Deformation::Blend { weight_shift } = self.scene.kernel.deformation else {
+        let Deformation::TowardHat { weight_shift } = self.scene.kernel.deformation else {
             self.notice = Some("only deformation 2 has a weight: press J".into());
             return;
         };
@@ -307,7 +307,7 @@ impl Session {
         let largest = LARGEST_SHIFT.max(weight_shift);
         let weight_shift = weight_shift.saturating_add_signed(step).min(largest);
         self.weight_shift = weight_shift;
-        self.scene.kernel.deformation = Deformation::Blend { weight_shift };
+        self.scene.kernel.deformation = Deformation::TowardHat { weight_shift };
         self.kernel_changed();
     }
 

@@ -33,7 +33,7 @@ fn scenes() -> Vec<(String, Scene)> {
         });
     }
     for scale in [1e-25, 1e-14, 1e-9, 1e-6, 1e3, 1e5, 1e7] {
-        add(format!("relief times {scale}"), &|scene| {
+        add(format!("heights times {scale}"), &|scene| {
             terrain(scene).scale = scale;
             scene.camera.position.y = 12.0 * scale + 3.0;
         });
@@ -86,7 +86,7 @@ fn scenes() -> Vec<(String, Scene)> {
     }
     for weight_shift in [19, 30, 31, 32, 62, 63, 64] {
         add(format!("weights shifted by {weight_shift}"), &|scene| {
-            scene.kernel.deformation = Deformation::Blend { weight_shift };
+            scene.kernel.deformation = Deformation::TowardHat { weight_shift };
         });
     }
     for base_depth in [1e-9, 1e3, 1e9] {
@@ -150,7 +150,7 @@ fn what_is_refused_names_the_field_to_change() {
         let message = error.to_string();
         // The part of the scene that is out of bounds; moving the eye would not help the others.
         let field = match name.split(' ').next() {
-            Some("cells" | "relief" | "base") => "surface.",
+            Some("cells" | "heights" | "base") => "surface.",
             _ if name.ends_with("degrees") => "screen.",
             Some("pixels" | "screen") => "screen.",
             _ => "camera.position",

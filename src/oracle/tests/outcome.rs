@@ -167,7 +167,7 @@ fn a_grazing_ray_is_called_tangent() {
 
 #[test]
 fn frames_hold_their_pixels() {
-    let kernel = kernel(KernelShape::Cosine, Deformation::Blend { weight_shift: 2 });
+    let kernel = kernel(KernelShape::Cosine, Deformation::TowardHat { weight_shift: 2 });
     let terrain = terrain(rough_map(20, 20, 4), Outside::Sky);
     let (eye, forward) = (DVec3::new(-3.0, 2.0, 7.0), DVec3::new(1.0, -0.5, 0.0));
     let oracle = oracle(&scene(Surface::Terrain(terrain), kernel, eye, forward));

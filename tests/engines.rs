@@ -3,8 +3,8 @@
 
 mod support;
 
-#[path = "engines/hostile.rs"]
-mod hostile;
+#[path = "engines/corner_cases.rs"]
+mod corner_cases;
 #[path = "engines/rasters.rs"]
 mod rasters;
 #[path = "engines/sweeps.rs"]

@@ -20,12 +20,12 @@ mod damage;
 mod fuzz;
 #[path = "scene_files/grids.rs"]
 mod grids;
-#[path = "scene_files/hostile.rs"]
-mod hostile;
 #[path = "scene_files/messages.rs"]
 mod messages;
 #[path = "scene_files/options.rs"]
 mod options;
+#[path = "scene_files/random_texts.rs"]
+mod random_texts;
 #[path = "scene_files/wild.rs"]
 mod wild;
 

@@ -15,7 +15,7 @@ fn hills() -> Scene {
     over(map(12, 9, |i, j| ((i * 7 + j * 11) % 13) as f32), 19, 13)
 }
 
-/// Every hostile scene with its name.
+/// Every corner case with its name.
 fn scenes() -> Vec<(String, Scene)> {
     let mut all: Vec<(String, Scene)> = Vec::new();
     let mut add = |name: String, change: &dyn Fn(&mut Scene)| {
@@ -112,7 +112,7 @@ fn scenes() -> Vec<(String, Scene)> {
 }
 
 #[test]
-fn hostile_scenes_are_refused_or_drawn() {
+fn corner_cases_are_refused_or_drawn() {
     let (mut drawn, mut refused, mut wrong) = (0, Vec::new(), Vec::new());
     for (name, scene) in scenes() {
         for full in [false, true] {

@@ -15,7 +15,7 @@
 use crate::setup::Setup;
 use crate::unit::line::Work;
 use crate::unit::{Line, Timing};
-use crate::word::format::mix;
+use crate::word::format::hash;
 use crate::word::{Complete, World};
 
 /// One stage of the chain: a unit, or several that work on an item together.
@@ -67,7 +67,7 @@ impl Chain {
 
 /// Who takes finished pixels from the frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sink {
+pub enum Taker {
     /// Takes a pixel in every cycle.
     #[default]
     Ready,
@@ -80,12 +80,12 @@ pub enum Sink {
     },
 }
 
-impl Sink {
+impl Taker {
     /// Whether it takes a pixel in a cycle, counted from 0.
     pub fn is_ready(self, cycle: u64) -> bool {
         match self {
             Self::Ready => true,
-            Self::Busy { seed, of_256 } => mix(seed, cycle) as u8 >= of_256,
+            Self::Busy { seed, of_256 } => hash(seed, cycle) as u8 >= of_256,
         }
     }
 }
@@ -99,7 +99,7 @@ pub struct Clock {
     /// Per unit, the first cycle in which it is done with the item before.
     free: Vec<u64>,
     occupancy: Vec<Occupancy>,
-    sink: Sink,
+    taker: Taker,
     items: u64,
     last: u64,
 }
@@ -120,17 +120,17 @@ impl Clock {
             taken: depths.take(chain.stages.len()).map(ring).collect(),
             free: vec![0; chain.stages.len()],
             occupancy: vec![Occupancy::default(); chain.stages.len()],
-            sink: Sink::Ready,
+            taker: Taker::Ready,
             items: 0,
             last: 0,
             chain,
         }
     }
 
-    /// The clock with another sink behind the frame.
+    /// The clock with another taker behind the frame.
     #[must_use]
-    pub fn with_sink(self, sink: Sink) -> Self {
-        Self { sink, ..self }
+    pub fn with_taker(self, taker: Taker) -> Self {
+        Self { taker, ..self }
     }
 
     /// One pixel; returns the cycle (from 1) in which the frame takes it.
@@ -146,7 +146,7 @@ impl Clock {
                 _ => 0,
             };
             let mut entered = here.max(room);
-            while unit + 1 == count && !self.sink.is_ready(entered) {
+            while unit + 1 == count && !self.taker.is_ready(entered) {
                 entered += 1;
             }
             let cycles = timing.work.of(work);

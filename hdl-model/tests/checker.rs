@@ -1,5 +1,5 @@
-//! The checker against the emulator's, in every bit and cycle: real planes, and corner cases of coefficients
-//! and items within the ranges that the module states.
+//! The checker against the emulator's, in every bit and cycle: real planes, and corner cases of
+//! coefficients and items within the ranges that the module states.
 #![cfg(rtl)]
 
 mod elastic;

@@ -1,6 +1,6 @@
 //! The shader against the emulator's, in every bit and cycle: real frames of many lights and ramps,
-//! and corner cases of coefficients and items within the ranges that the modules state; light and ramp by
-//! themselves as well, up to the wires between them and the mixer.
+//! and corner cases of coefficients and items within the ranges that the modules state; light and
+//! ramp by themselves as well, up to the wires between them and the mixer.
 #![cfg(rtl)]
 
 mod elastic;

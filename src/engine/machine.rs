@@ -7,7 +7,7 @@ use super::list::Engine;
 use super::memories::{Memories, Ready, SetUpTime};
 use super::world::FixedWorld;
 use crate::oracle::Oracle;
-use crate::plan::{Ground, Plan};
+use crate::plan::{Plan, SurfacePlan};
 use crate::scene::Scene;
 use crate::setup::{Setup, SetupError};
 use crate::word::Complete;
@@ -133,7 +133,7 @@ impl<'a> Machine<'a> {
         self.oracle.get_or_init(|| {
             let start = Instant::now();
             let mut oracle = Oracle::new(self.scene, &self.plan.screen);
-            if let Ground::Terrain(walk) = &self.plan.ground {
+            if let SurfacePlan::Terrain(walk) = &self.plan.surface {
                 oracle = oracle.with_reach_cells(walk.extreme);
             }
             (oracle, SetUpTime { coefficients: start.elapsed(), ..SetUpTime::default() })

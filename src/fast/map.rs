@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::cells::Cells;
 use super::enter::Enterable;
 use super::maxima::Maxima;
-use crate::plan::{Ground, Plan};
+use crate::plan::{Plan, SurfacePlan};
 use crate::scene::{Kernel, Scene};
 use crate::setup::{Memory, kernel};
 use crate::unit::height_memory::{Edge, HeightMemory};
@@ -86,7 +86,9 @@ impl<W: Enterable> Map<W> {
     /// that are no cells of the map, and where products of heights with weights need more than 64
     /// bits.
     pub fn new(world: &W, scene: &Scene, plan: &Plan, memory: Option<&Memory<W>>) -> Option<Self> {
-        let (Ground::Terrain(walk), Some(memory)) = (&plan.ground, memory) else { return None };
+        let (SurfacePlan::Terrain(walk), Some(memory)) = (&plan.surface, memory) else {
+            return None;
+        };
         let (heights, form) = (&*memory.heights, memory.form);
         let point = world.fixed(Register::Node)?.point;
         let cells = match heights.edge() {

@@ -133,9 +133,9 @@ pub enum Giver {
     Processor,
 }
 
-/// A line of the table.
+/// A row of the table: one array of a frame.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
+pub struct BufferRow {
     /// Name of the array.
     pub name: &'static str,
     /// Type of its scalars.
@@ -148,7 +148,7 @@ pub struct Entry {
     pub holds: &'static str,
 }
 
-impl Entry {
+impl BufferRow {
     const fn of<T: Element>(name: &'static str, giver: Giver, holds: &'static str) -> Self {
         Self { name, dtype: T::DTYPE, components: T::COMPONENTS, giver, holds }
     }
@@ -215,10 +215,10 @@ macro_rules! table {
         const REQUESTED: usize = [$(stringify!($name)),*].len();
 
         /// All arrays of a frame, in the order of files.
-        pub static TABLE: [Entry; REQUESTED + 2] = [
-            Entry::of::<Hit>("hit", Giver::Engines, $hit),
-            $(Entry::of::<$type>(stringify!($name), Giver::$giver, $holds),)*
-            Entry::of::<[u8; 3]>("color", Giver::Engines, $color),
+        pub static TABLE: [BufferRow; REQUESTED + 2] = [
+            BufferRow::of::<Hit>("hit", Giver::Engines, $hit),
+            $(BufferRow::of::<$type>(stringify!($name), Giver::$giver, $holds),)*
+            BufferRow::of::<[u8; 3]>("color", Giver::Engines, $color),
         ];
     };
 }
@@ -267,7 +267,7 @@ pub fn markdown() -> String {
          the table in `src/frame/buffers.rs`.\n\n\
          | array | type | given by | holds |\n|---|---|---|---|\n",
     );
-    for Entry { name, dtype, components, giver, holds } in &TABLE {
+    for BufferRow { name, dtype, components, giver, holds } in &TABLE {
         let dtype = &dtype.name()[1..];
         let times = if *components > 1 { format!(" ×{components}") } else { String::new() };
         let giver = match giver {

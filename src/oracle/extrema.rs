@@ -23,7 +23,7 @@ pub struct Span {
     pub end: i64,
 }
 
-/// Farther than any walk: the end of a run that never ends.
+/// Farther than any traversal: the end of a run that never ends.
 const OPEN: i64 = 1 << 48;
 
 impl Axis {

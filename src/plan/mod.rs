@@ -14,7 +14,7 @@ use crate::scene::{Deformation, KernelShape, Scene, Screen, StepperMode, Surface
 use crate::word::{Class, Fixed, Register};
 use geometry::Geometry;
 use proof::Finding;
-use ranges::WalkPlan;
+use ranges::TerrainPlan;
 
 pub use plane::PlanePlan;
 pub use units::UnitPlan;
@@ -99,11 +99,11 @@ impl WordClass {
     }
 }
 
-/// What the machine draws.
+/// The kind of surface that the machine draws, planned.
 #[derive(Clone, Debug)]
-pub enum Ground {
+pub enum SurfacePlan {
     /// A height map.
-    Terrain(WalkPlan),
+    Terrain(TerrainPlan),
     /// A plane.
     Plane(PlanePlan),
 }
@@ -134,8 +134,8 @@ pub struct Plan {
     pub screen: Screen,
     /// Camera geometry.
     pub geometry: Geometry,
-    /// What is drawn.
-    pub ground: Ground,
+    /// The plan of its surface.
+    pub surface: SurfacePlan,
     /// Everything fitted, nothing pruned.
     pub full: bool,
     /// What is fitted.
@@ -163,12 +163,13 @@ impl Plan {
         .clone();
         let geometry = Geometry::new(&scene.camera, &screen);
         let (asked, formats) = (scene.machine.words, &scene.formats[..]);
-        let (ground, needs, finding) = match &scene.surface {
+        let (surface, needs, finding) = match &scene.surface {
             Surface::Terrain(terrain) => {
                 let fineness = scene.stepper.fineness;
-                let (walk, finding) = WalkPlan::new(terrain, &geometry, fineness, asked, formats)?;
+                let (walk, finding) =
+                    TerrainPlan::new(terrain, &geometry, fineness, asked, formats)?;
                 let needs = terrain_needs(scene, terrain, &walk);
-                (Ground::Terrain(walk), needs, finding)
+                (SurfacePlan::Terrain(walk), needs, finding)
             }
             Surface::Plane(plane) => {
                 let (plane, finding) = PlanePlan::new(plane, &geometry, asked, formats)?;
@@ -181,11 +182,11 @@ impl Plan {
                     light: false,
                     idle: false,
                 };
-                (Ground::Plane(plane), needs, finding)
+                (SurfacePlan::Plane(plane), needs, finding)
             }
         };
         let fitted = if full {
-            let terrain = matches!(ground, Ground::Terrain(_));
+            let terrain = matches!(surface, SurfacePlan::Terrain(_));
             Fitted {
                 divider: true,
                 pyramid: terrain && scene.stepper.mode == StepperMode::Skipping,
@@ -199,14 +200,14 @@ impl Plan {
             needs
         };
         let Finding { why: words_why, not_proved } = finding;
-        Ok(Self { screen, geometry, ground, full, fitted, words_why, not_proved })
+        Ok(Self { screen, geometry, surface, full, fitted, words_why, not_proved })
     }
 
     /// The word size of the stock world that the plan chose.
     pub fn words(&self) -> WordClass {
-        match &self.ground {
-            Ground::Terrain(walk) => walk.words,
-            Ground::Plane(plane) => plane.words,
+        match &self.surface {
+            SurfacePlan::Terrain(walk) => walk.words,
+            SurfacePlan::Plane(plane) => plane.words,
         }
     }
 }
@@ -233,7 +234,7 @@ pub(crate) fn needs_kernel(scene: &Scene, constant: bool, holes: bool) -> bool {
     !constant || (holes && scene.kernel.deformation == Deformation::Stretch)
 }
 
-fn terrain_needs(scene: &Scene, terrain: &Terrain, walk: &WalkPlan) -> Fitted {
+fn terrain_needs(scene: &Scene, terrain: &Terrain, walk: &TerrainPlan) -> Fitted {
     let (lowest, highest) = terrain.range();
     let constant = lowest == highest;
     let unit = walk.scale.unit;

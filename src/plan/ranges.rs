@@ -34,7 +34,7 @@ impl HeightScale {
 
 /// The walk of a ray over the map.
 #[derive(Clone, Debug)]
-pub struct WalkPlan {
+pub struct TerrainPlan {
     /// Word size of its stock registers.
     pub words: WordClass,
     /// How heights are loaded.
@@ -85,7 +85,7 @@ struct Needs {
 /// layer would have no bits.
 const THIN_LAYER: f64 = 1.0 / 256.0;
 
-impl WalkPlan {
+impl TerrainPlan {
     /// Proves a walk in the smaller word size that holds it, or says what is not proved of the
     /// scene's own formats. These do not change the walk: it is that of the stock words.
     ///

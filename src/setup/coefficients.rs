@@ -6,8 +6,8 @@ use super::SetupError;
 use super::memory::{Memory, load};
 use crate::frame::Hit;
 use crate::plan::geometry::{LinearScalar, LinearVector};
-use crate::plan::ranges::WalkPlan;
-use crate::plan::{Ground, Plan, PlanePlan};
+use crate::plan::ranges::TerrainPlan;
+use crate::plan::{Plan, PlanePlan, SurfacePlan};
 use crate::scene::{Bisection, Colors, Plane, RatioForm, Scene};
 use crate::unit::checker::Checker;
 use crate::unit::divider::Divider;
@@ -49,14 +49,14 @@ impl Coefficients {
     pub fn new(plan: &Plan) -> Self {
         let geometry = &plan.geometry;
         // View in register units, denominator's G and F.
-        let (view, g, f) = match &plan.ground {
-            Ground::Terrain(walk) => {
+        let (view, g, f) = match &plan.surface {
+            SurfacePlan::Terrain(walk) => {
                 let view = geometry.view.scaled(walk.lengths.recip());
                 // The slab's top: n = y. Rays that start at the eye have no use for it.
                 let f = if walk.from_eye { -1.0 } else { walk.top - walk.eye.y };
                 (view, view.dot(DVec3::Y), f)
             }
-            Ground::Plane(plane) => {
+            SurfacePlan::Plane(plane) => {
                 let PlaneView { view, g } = plane_view(plan, plane);
                 (view, g, plane.numerator)
             }
@@ -96,7 +96,7 @@ impl Coefficients {
                 per_column: load(self.view.per_column)?,
             })
         };
-        let stepping = matches!(plan.ground, Ground::Terrain(_)) || plan.fitted.idle;
+        let stepping = matches!(plan.surface, SurfacePlan::Terrain(_)) || plan.fitted.idle;
         let denominator = if plan.fitted.divider {
             let format = world.view(Register::Denominator);
             let load = |value| load::<W::View>(value, Register::Denominator, format);
@@ -129,9 +129,9 @@ impl Coefficients {
         if !plan.fitted.divider {
             return Ok(None);
         }
-        let (x, z, range) = match &plan.ground {
-            Ground::Terrain(walk) => (walk.eye.x, walk.eye.z, walk.range),
-            Ground::Plane(plane) => (plane.eye[0], plane.eye[1], plane.range),
+        let (x, z, range) = match &plan.surface {
+            SurfacePlan::Terrain(walk) => (walk.eye.x, walk.eye.z, walk.range),
+            SurfacePlan::Plane(plane) => (plane.eye[0], plane.eye[1], plane.range),
         };
         let exponent = self.denominator_exponent - self.view_exponent;
         let range = quotient_range(world, range);
@@ -188,7 +188,7 @@ fn plane_view(plan: &Plan, plane: &PlanePlan) -> PlaneView {
 pub(super) fn stepper<W: Open>(
     world: &W,
     scene: &Scene,
-    walk: &WalkPlan,
+    walk: &TerrainPlan,
     memory: &Memory<W>,
     surface: Interpolator<W>,
 ) -> Result<Stepper<W>, SetupError> {
@@ -234,7 +234,7 @@ pub(super) fn stepper<W: Open>(
 pub(super) fn interpolator<W: Open>(
     world: &W,
     plan: &Plan,
-    walk: &WalkPlan,
+    walk: &TerrainPlan,
     memory: &Memory<W>,
 ) -> Result<Interpolator<W>, SetupError> {
     let format = world.weight(Register::Weight);
@@ -264,7 +264,7 @@ pub(super) fn shader<W: Open>(
     world: &W,
     scene: &Scene,
     plan: &Plan,
-    walk: &WalkPlan,
+    walk: &TerrainPlan,
     memory: &Memory<W>,
 ) -> Result<Shader<W>, SetupError> {
     let tone = |value, register: Register| load(value, register, world.tone(register));

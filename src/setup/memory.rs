@@ -5,8 +5,8 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::kernel;
-use crate::plan::ranges::WalkPlan;
-use crate::plan::{ALL_BITS, Ground, Plan};
+use crate::plan::ranges::TerrainPlan;
+use crate::plan::{ALL_BITS, Plan, SurfacePlan};
 use crate::scene::{Deformation, Kernel, KernelShape, Outside, Scene, Surface, Terrain};
 use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
@@ -47,7 +47,8 @@ impl<W: Open> Memory<W> {
     /// # Errors
     /// If a height or weight does not fit its register: only in a sweep.
     pub fn new(world: &W, scene: &Scene, plan: &Plan) -> Result<Option<Self>, super::SetupError> {
-        let (Surface::Terrain(terrain), Ground::Terrain(walk)) = (&scene.surface, &plan.ground)
+        let (Surface::Terrain(terrain), SurfacePlan::Terrain(walk)) =
+            (&scene.surface, &plan.surface)
         else {
             return Ok(None);
         };
@@ -81,7 +82,7 @@ impl<W: Open> Memory<W> {
 fn heights<W: Open>(
     world: &W,
     terrain: &Terrain,
-    walk: &WalkPlan,
+    walk: &TerrainPlan,
     void_bits: bool,
 ) -> Result<HeightMemory<W::Height>, super::SetupError> {
     let format = world.height(Register::Node);

@@ -6,8 +6,8 @@ pub mod kernel;
 pub mod memory;
 pub mod table;
 
-use crate::plan::ranges::WalkPlan;
-use crate::plan::{Ground, Plan, PlanError};
+use crate::plan::ranges::TerrainPlan;
+use crate::plan::{Plan, PlanError, SurfacePlan};
 use crate::scene::{Scene, Surface};
 use crate::unit::checker::Checker;
 use crate::unit::coefficient::{Bank, Coefficient};
@@ -106,8 +106,8 @@ impl<W: Complete> Setup<W> {
         memory: Option<&Memory<W>>,
     ) -> Result<Self, SetupError> {
         let coefficients = coefficients::Coefficients::new(plan);
-        let back = match (&scene.surface, &plan.ground, memory) {
-            (Surface::Terrain(_), Ground::Terrain(walk), Some(memory)) => {
+        let back = match (&scene.surface, &plan.surface, memory) {
+            (Surface::Terrain(_), SurfacePlan::Terrain(walk), Some(memory)) => {
                 let interpolator = coefficients::interpolator(&world, plan, walk, memory)?;
                 let surface = interpolator.clone();
                 let stepper = coefficients::stepper(&world, scene, walk, memory, surface)?;
@@ -115,7 +115,7 @@ impl<W: Complete> Setup<W> {
                 let shader = coefficients::shader(&world, scene, plan, walk, memory)?;
                 Back::Terrain(Box::new(TerrainUnits { stepper, interpolator, shader }))
             }
-            (Surface::Plane(plane), Ground::Plane(planned), _) => Back::Plane(
+            (Surface::Plane(plane), SurfacePlan::Plane(planned), _) => Back::Plane(
                 coefficients::checker(&world, scene, plan, plane, planned, &coefficients)?,
             ),
             _ => unreachable!("a plan is of its scene, and a height map has its memory"),
@@ -174,7 +174,7 @@ impl<W: Interpolating + Shading> Back<W> {
 }
 
 fn refuse_eye_under_ground<W: Interpolating + Open>(
-    walk: &WalkPlan,
+    walk: &TerrainPlan,
     stepper: &Stepper<W>,
 ) -> Result<(), PlanError> {
     let (eye, surface) = (stepper.eye(), &stepper.surface);

@@ -115,7 +115,7 @@ impl Vectors<'_> {
                 }
                 _ => format!("{} {}", Rounding::default().name(), Overflow::default().name()),
             };
-            let equations = table::entry(register).equations;
+            let equations = table::row(register).equations;
             format!("format {register} {word} {rule} equations {equations}")
         };
         registers.iter().map(line).collect()

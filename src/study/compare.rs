@@ -76,8 +76,8 @@ impl Comparison {
                 let close =
                     |a: &ArrayComparison| a.max_difference <= max_difference && a.unmatched == 0;
                 let of_all = |name: &String| {
-                    let entry = TABLE.iter().find(|entry| entry.name == name);
-                    entry.is_none_or(|entry| entry.giver == Giver::Engines)
+                    let row = TABLE.iter().find(|row| row.name == name);
+                    row.is_none_or(|row| row.giver == Giver::Engines)
                 };
                 !buffers.only_in_a.iter().chain(&buffers.only_in_b).any(of_all)
                     && buffers.arrays.iter().all(close)

@@ -17,7 +17,7 @@ use crate::readout::Reader;
 use crate::setup::{Setup, SetupError};
 use crate::unit::Line;
 use crate::word::Complete;
-use crate::word::format::mix;
+use crate::word::format::hash;
 use crate::word::real::Real;
 
 /// Lines and columns that a study looks at.
@@ -49,7 +49,7 @@ impl Sample {
             (0..count)
                 .map(|strip| {
                     let (from, to) = (edge(strip), edge(strip + 1));
-                    from + (mix(seed ^ axis, strip.into()) % u64::from(to - from)) as u32
+                    from + (hash(seed ^ axis, strip.into()) % u64::from(to - from)) as u32
                 })
                 .collect()
         };

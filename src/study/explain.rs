@@ -15,7 +15,7 @@ use crate::unit::Wire;
 use crate::word::Register;
 use closed::Closed;
 use quantity::{Axis, Quantity};
-use trace::{Reading, Trace, Walk};
+use trace::{PixelTrace, Reading, Trace};
 
 /// One register of one pixel.
 #[derive(Clone, Debug, Serialize)]
@@ -84,8 +84,8 @@ impl Machine<'_> {
     /// If the scene cannot be set up in f64.
     pub fn explain(&self, column: u32, line: u32) -> Result<Explanation, SetupError> {
         let plan = self.plan();
-        let fixed = self.run(Walk { column, line, index: None });
-        let real = Walk { column, line, index: Some(fixed.steps) }.run(self.real()?);
+        let fixed = self.run(PixelTrace { column, line, index: None });
+        let real = PixelTrace { column, line, index: Some(fixed.steps) }.run(self.real()?);
         let oracle = self.oracle();
         let sighting = oracle.pixel(line.into(), column.into());
         let closed = Closed {
@@ -114,7 +114,7 @@ impl Machine<'_> {
                     oracle: closed.value(reading.quantity),
                     error: real_value.map(|real| reading.value - real),
                     bound: bound(&fixed, reading, &closed.coefficients, column, line),
-                    equations: table::entry(register).equations,
+                    equations: table::row(register).equations,
                 }
             })
             .collect();

@@ -383,7 +383,7 @@ fn lerp<H: Multiply<T>, T: Word>(from: H, to: H, weight: T, site: Site) -> H {
 
 /// The height between nodes h1 to h4 (equation 14; thesis 2.51, 2.52).
 #[inline(always)]
-pub fn mix<H: Multiply<T>, T: Word>(
+pub fn lerp_nodes<H: Multiply<T>, T: Word>(
     [h1, h2, h3, h4]: [H; 4],
     weight_x: T,
     weight_z: T,
@@ -428,6 +428,6 @@ impl<W: Interpolating> SurfaceUnit<W> for Interpolator<W> {
         }
         let weight_z = self.weight(z.fraction(), site);
         let weight_x = self.weight(x.fraction(), site.step(site.operation ^ 1));
-        mix(self.nodes(x, z, site), weight_x, weight_z, site)
+        lerp_nodes(self.nodes(x, z, site), weight_x, weight_z, site)
     }
 }

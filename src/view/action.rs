@@ -4,7 +4,7 @@ use crate::sink::picture::Picture;
 
 use super::camera::Course;
 
-/// A side of the divider.
+/// A side of the split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Left of it, or everything where there is none.
@@ -26,10 +26,10 @@ pub enum Action {
     NextDeformation,
     /// Add to d of the weight 2^-d.
     Weight(i32),
-    /// Put the divider up, or take it away.
-    ToggleDivider,
-    /// Move the divider to a place across the raster, 0..=1.
-    MoveDivider(f64),
+    /// Split the raster in two, or show one picture again.
+    ToggleSplit,
+    /// Move the split to a place across the raster, 0..=1.
+    MoveSplit(f64),
     /// Stop the scan or let it go on.
     TogglePause,
     /// Draw one line and stop.

@@ -12,7 +12,7 @@ pub struct Order {
     pub scene: Arc<Scene>,
     /// Every unit fitted.
     pub full: bool,
-    /// Left and, where there is a divider, right.
+    /// Left and, where there is a split, right.
     pub panes: Vec<Pane>,
     /// Lines as they are granted; otherwise whole frames.
     pub by_lines: bool,

@@ -1,4 +1,4 @@
-//! What one side of the divider shows: a picture, and the engine that draws it.
+//! What one side of the split shows: a picture, and the engine that draws it.
 
 use crate::engine::Engine;
 use crate::sink::picture::Picture;

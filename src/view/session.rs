@@ -21,7 +21,7 @@ pub struct Session {
     map: Option<String>,
     first: (Camera, Screen),
     panes: [Pane; 2],
-    divider: Option<f64>,
+    split: Option<f64>,
     /// Of deformation 2, while another one is on.
     weight_shift: u32,
     pace: Pace,
@@ -72,7 +72,7 @@ impl Session {
             full,
             map,
             panes: [pane, right],
-            divider: None,
+            split: None,
             pace: Pace::default(),
             layout,
             cursor: None,
@@ -100,13 +100,13 @@ impl Session {
     /// The panes that are seen, left first.
     #[must_use]
     pub fn panes(&self) -> &[Pane] {
-        &self.panes[..1 + usize::from(self.divider.is_some())]
+        &self.panes[..1 + usize::from(self.split.is_some())]
     }
 
-    /// Place of the divider across the raster, 0..=1.
+    /// Place of the split across the raster, 0..=1.
     #[must_use]
-    pub fn divider(&self) -> Option<f64> {
-        self.divider
+    pub fn split(&self) -> Option<f64> {
+        self.split
     }
 
     /// Pace of the scan.
@@ -182,12 +182,12 @@ impl Session {
             Action::NextShape => self.next_shape(),
             Action::NextDeformation => self.next_deformation(),
             Action::Weight(step) => self.add_weight(step),
-            Action::ToggleDivider => {
-                self.divider = if self.divider.is_some() { None } else { Some(0.5) };
+            Action::ToggleSplit => {
+                self.split = if self.split.is_some() { None } else { Some(0.5) };
                 self.changed = true;
             }
-            Action::MoveDivider(place) => {
-                self.divider = self.divider.map(|_| place.clamp(0.0, 1.0));
+            Action::MoveSplit(place) => {
+                self.split = self.split.map(|_| place.clamp(0.0, 1.0));
             }
             Action::TogglePause => self.set_pace(Pace::toggle_pause),
             Action::Faster => self.set_pace(Pace::faster),
@@ -245,8 +245,8 @@ impl Session {
     }
 
     fn set_pane(&mut self, side: Side, change: impl FnOnce(Pane) -> Pane) {
-        if side == Side::Right && self.divider.is_none() {
-            self.divider = Some(0.5);
+        if side == Side::Right && self.split.is_none() {
+            self.split = Some(0.5);
         }
         let pane = &mut self.panes[usize::from(side == Side::Right)];
         *pane = change(*pane);

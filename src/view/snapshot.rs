@@ -144,7 +144,7 @@ pub struct Facts {
 pub struct Snapshot {
     /// Grows with every snapshot.
     pub version: u64,
-    /// Left and, where there is a divider, right.
+    /// Left and, where there is a split, right.
     pub images: Vec<Arc<Image>>,
     /// Measurements.
     pub facts: Facts,

@@ -121,9 +121,9 @@ impl Rounding {
     }
 }
 
-/// A well-mixed hash of two words (the finaliser of SplitMix64, applied twice): the source of
+/// A hash of two words whose bits all depend on all bits (the finaliser of SplitMix64, applied twice): the source of
 /// random bits, a function of its place alone, so that the order of operations does not matter.
-pub fn mix(seed: u64, place: u64) -> u64 {
+pub fn hash(seed: u64, place: u64) -> u64 {
     let round = |mut z: u64| {
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -9,7 +9,7 @@ use terraline::scene::{
     Angles, Attitude, Bisection, Deformation, Extent, HeightMap, Kernel, KernelShape, Outside,
     Scene, Screen, StepperMode,
 };
-use terraline::word::format::mix;
+use terraline::word::format::hash;
 
 use super::{SHAPES, ground_under, map, over, terrain};
 
@@ -93,11 +93,11 @@ impl Recipe {
     fn heights(&self) -> HeightMap {
         let (columns, rows) = self.nodes;
         let random = |i: usize, j: usize| {
-            (mix(self.seed, (j * columns + i) as u64) >> 40) as f32 / (1 << 23) as f32 - 1.0
+            (hash(self.seed, (j * columns + i) as u64) >> 40) as f32 / (1 << 23) as f32 - 1.0
         };
         let (a, b) = (random(columns, rows), random(rows, columns + 1));
         map(columns, rows, |i, j| {
-            let chance = |i: usize, j: usize| mix(!self.seed, (j * columns + i) as u64) % 1000;
+            let chance = |i: usize, j: usize| hash(!self.seed, (j * columns + i) as u64) % 1000;
             let void = match self.voids {
                 Voids::None => false,
                 Voids::Scattered(share) => (chance(i, j) as f64) < 1000.0 * share,

@@ -163,7 +163,7 @@ fn no_side_of_a_hole_is_jumped() {
     }
 }
 
-/// A wide plain with a few high nodes: most of a walk passes over blocks of several sizes.
+/// A wide plain with a few high nodes: most of a traversal passes over blocks of several sizes.
 #[test]
 fn no_crossing_is_jumped_by_passing_over_blocks() {
     let mut dice = Dice(31);

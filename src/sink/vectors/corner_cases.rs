@@ -10,7 +10,7 @@ use crate::unit::line::Entry;
 use crate::unit::projector::{Linear, Projector};
 use crate::unit::stepper::SurfaceUnit;
 use crate::unit::{Description, Line};
-use crate::word::format::mix;
+use crate::word::format::hash;
 use crate::word::{Complete, Fixed, Load, Readout, Register, Site, Word};
 
 /// Lines and columns that a set of coefficients is scanned over.
@@ -37,7 +37,7 @@ impl<W: Complete> CornerCases<W> {
 
     fn bits(&mut self) -> u64 {
         self.drawn += 1;
-        mix(self.seed, self.drawn)
+        hash(self.seed, self.drawn)
     }
 
     fn below(&mut self, end: u64) -> u64 {

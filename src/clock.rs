@@ -21,9 +21,9 @@ use crate::word::{Complete, World};
 /// One stage of the chain: a unit, or several that work on an item together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stage {
-    /// Name.
+    /// Name of the stage: that of its unit, or of the stage that its units share.
     pub name: &'static str,
-    /// Its cycles.
+    /// Work, latency and depth.
     pub timing: Timing,
 }
 
@@ -33,7 +33,7 @@ const FRAME: Stage = Stage { name: "frame", timing: Timing { depth: 1, ..Timing:
 /// What a unit did over all items.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Occupancy {
-    /// Cycles of work.
+    /// Cycles in which it worked on an item.
     pub busy: u64,
     /// Cycles in which an item was there but the next unit had no room.
     pub stalled: u64,
@@ -73,7 +73,7 @@ pub enum Taker {
     Ready,
     /// Is busy in some cycles, chosen by a seed.
     Busy {
-        /// Which cycles.
+        /// Seed of the random bits that choose the cycles.
         seed: u64,
         /// How many of 256, below 256.
         of_256: u8,
@@ -90,7 +90,7 @@ impl Taker {
     }
 }
 
-/// The running recurrence.
+/// Equation 28, evaluated pixel by pixel.
 #[derive(Clone, Debug)]
 pub struct Clock {
     chain: Chain,

@@ -14,7 +14,7 @@ const DESCRIBED: usize = 8;
 /// What a co-simulation found.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Pixels compared.
+    /// Pixels of the frame, all of which were compared.
     pub pixels: u64,
     /// Cycles of the RTL, from the first after start to the one in which the last pixel is taken.
     pub cycles: u64,
@@ -22,7 +22,7 @@ pub struct Outcome {
     pub expected_cycles: u64,
     /// Per fitted unit: name, and cycles in which an item waited before it.
     pub waits: Vec<(&'static str, u64)>,
-    /// Differences found.
+    /// Outputs and cycles that are not the emulator's.
     pub differences: u64,
     /// The first of them.
     pub described: Vec<String>,

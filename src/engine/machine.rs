@@ -83,19 +83,19 @@ impl<'a> Machine<'a> {
         Ok(Self { scene, plan, world, memories, fixed, real, oracle })
     }
 
-    /// Its scene.
+    /// The scene that it draws.
     #[must_use]
     pub fn scene(&self) -> &'a Scene {
         self.scene
     }
 
-    /// Its plan.
+    /// The plan that it was set up by.
     #[must_use]
     pub fn plan(&self) -> &'a Plan {
         self.plan
     }
 
-    /// Its fixed-point world.
+    /// The fixed-point world that it is set up in.
     #[must_use]
     pub fn world(&self) -> FixedWorld {
         self.world

@@ -24,7 +24,7 @@ const ROUNDINGS: f64 = 1.0 / (1 << 18) as f64;
 pub struct Map<W: World> {
     /// Highest nodes of blocks.
     pub(super) maxima: Maxima,
-    /// Nodes.
+    /// Heights of nodes, in pairs of rows.
     pub(super) cells: Cells<W::Height>,
     /// Weights, where the machine has a kernel ROM.
     pub(super) weights: Option<Weights>,
@@ -49,9 +49,9 @@ pub(super) struct Bend {
 pub(super) struct Weights {
     /// Entries per unit, as a power of two.
     pub log2: u32,
-    /// Weights.
+    /// Weights of the kernel, by entry.
     pub weight: MaskedTable,
-    /// Slopes.
+    /// Derivatives of the weights, by entry.
     pub slope: MaskedTable,
 }
 

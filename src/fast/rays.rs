@@ -30,7 +30,7 @@ const OUTCOMES: [Hit; 4] = [Hit::Sky, Hit::Surface, Hit::Side, Hit::OutOfRange];
 pub struct Rays<W: Packed, S: Simd> {
     /// The first place that has not been tested: x, y, z.
     pub place: [W::Words<S>; 3],
-    /// The step.
+    /// ΔP of each ray: x, y, z.
     pub step: [W::Words<S>; 3],
     /// Index of the sample at that place.
     pub index: u32x16<S>,
@@ -59,7 +59,7 @@ pub struct Rays<W: Packed, S: Simd> {
 }
 
 impl<W: Packed, S: Simd> Rays<W, S> {
-    /// No rays.
+    /// A packet in which no ray walks.
     #[inline(always)]
     pub fn idle(simd: S) -> Self {
         let nowhere = [W::Words::splat(simd, W::Int::default()); 3];

@@ -142,7 +142,7 @@ pub struct BufferRow {
     pub dtype: Dtype,
     /// Scalars of a pixel.
     pub components: usize,
-    /// Who gives it.
+    /// Which engines give it.
     pub giver: Giver,
     /// What it holds, with its unit.
     pub holds: &'static str,
@@ -257,7 +257,7 @@ impl Pixel {
     }
 }
 
-/// docs/buffers.md.
+/// Text of docs/buffers.md.
 #[must_use]
 pub fn markdown() -> String {
     let mut out = String::from(

@@ -53,7 +53,7 @@ enum Seen {
 /// What a pixel sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sighting {
-    /// Outcome.
+    /// What the pixel sees, or why nothing.
     pub hit: Hit,
     /// λ of `r_p = r_h + λ V`; NaN on a miss.
     pub lambda: f64,

@@ -80,7 +80,7 @@ impl Track {
 pub struct Crossing {
     /// Where on the ray.
     pub lambda: f64,
-    /// In which patch.
+    /// Indices of the patch in which it lies, x and z.
     pub patch: (i64, i64),
     /// It is a side of a hole that is crossed, not the surface.
     pub side: bool,

@@ -27,9 +27,9 @@ pub enum PlanError {
     Range {
         /// Field of the scene.
         field: &'static str,
-        /// What is wrong.
+        /// Which range or size is out of bounds, with its number.
         reason: String,
-        /// What to do.
+        /// What the user can change.
         remedy: &'static str,
     },
     /// The eye is below the surface.
@@ -48,13 +48,13 @@ pub enum PlanError {
     UnknownScreen {
         /// What was asked for.
         asked: String,
-        /// What there is.
+        /// Names of the screens that there are.
         known: String,
     },
     /// A format that the machine cannot work with.
     #[error("format.{name}: {reason}")]
     Format {
-        /// Register or class.
+        /// Name of the register or class.
         name: &'static str,
         /// What is wrong and what to do.
         reason: String,
@@ -79,9 +79,9 @@ pub struct WordClass {
 const LARGEST_PLACE: f64 = 16_777_216.0;
 
 impl WordClass {
-    /// 32 bits.
+    /// 32 bits: places to 2048 cells, in steps of 2^-20.
     pub const NARROW: Self = Self { name: "narrow", width: 32, view_point: 30, ground_point: 20 };
-    /// 64 bits.
+    /// 64 bits: places to 2^24 cells, in steps of 2^-24.
     pub const WIDE: Self = Self { name: "wide", width: 64, view_point: 38, ground_point: 24 };
 
     /// Largest magnitude of a ground or height register that the plan allows.
@@ -102,9 +102,9 @@ impl WordClass {
 /// The kind of surface that the machine draws, planned.
 #[derive(Clone, Debug)]
 pub enum SurfacePlan {
-    /// A height map.
+    /// A height map, walked over by rays.
     Terrain(TerrainPlan),
-    /// A plane.
+    /// A plane, met by one ratio.
     Plane(PlanePlan),
 }
 
@@ -113,7 +113,7 @@ pub enum SurfacePlan {
 pub struct Fitted {
     /// Divider, with the denominator's accumulator.
     pub divider: bool,
-    /// Skip pyramid.
+    /// Skip pyramid, with the adders of a jump.
     pub pyramid: bool,
     /// Kernel ROM, with the weight toward the hat.
     pub kernel_rom: bool,
@@ -121,7 +121,7 @@ pub struct Fitted {
     pub void_bits: bool,
     /// Slope multipliers for cells that are not cubes of the height unit.
     pub slope_scale: bool,
-    /// Normal and light.
+    /// The light unit; without it shade is one.
     pub light: bool,
     /// Units of another kind of surface, idle.
     pub idle: bool,
@@ -130,15 +130,15 @@ pub struct Fitted {
 /// A scene compiled for one channel.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The channel's screen.
+    /// Screen whose pixels are drawn.
     pub screen: Screen,
-    /// Camera geometry.
+    /// View vectors of that screen in the ground frame.
     pub geometry: Geometry,
     /// The plan of its surface.
     pub surface: SurfacePlan,
     /// Everything fitted, nothing pruned.
     pub full: bool,
-    /// What is fitted.
+    /// Which units are fitted.
     pub fitted: Fitted,
     /// Why these words, or how far the scene's own formats go.
     pub words_why: String,

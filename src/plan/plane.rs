@@ -12,9 +12,9 @@ use crate::word::Register;
 /// Projection onto a plane.
 #[derive(Clone, Debug)]
 pub struct PlanePlan {
-    /// Word size.
+    /// Word size of its stock registers.
     pub words: WordClass,
-    /// Unit normal.
+    /// Unit normal of the plane, ground frame.
     pub normal: DVec3,
     /// Side of a square, scene units.
     pub checker: f64,

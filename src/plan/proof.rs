@@ -10,7 +10,7 @@ use crate::word::Register;
 pub(super) struct Refusal {
     /// Field of the scene.
     pub(super) field: &'static str,
-    /// What is wrong.
+    /// Which range or rounding does not hold, with its number.
     pub(super) reason: String,
     /// What to do about it.
     pub(super) remedy: &'static str,

@@ -43,7 +43,7 @@ pub struct TerrainPlan {
     pub lengths: DVec3,
     /// The eye in cells and height units.
     pub eye: DVec3,
-    /// The highest node.
+    /// The highest node, height units above the lowest.
     pub top: f64,
     /// Base of the block under the map.
     pub base: f64,

@@ -10,11 +10,11 @@ use crate::word::{Register, World};
 /// One unit of the plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UnitPlan {
-    /// Unit.
+    /// Name of the unit.
     pub name: &'static str,
     /// Whether the machine has it.
     pub fitted: bool,
-    /// Reason.
+    /// Why it is fitted or left out.
     pub why: String,
     /// Formats of its registers, name and format.
     pub widths: Vec<(String, String)>,

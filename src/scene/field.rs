@@ -188,7 +188,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// A text.
+    /// The value as a text.
     pub(super) fn text(&self, expected: &str) -> Result<&'a str, SceneError> {
         match &self.node.value {
             Value::String(value) => Ok(value),

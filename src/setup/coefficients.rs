@@ -184,7 +184,7 @@ fn plane_view(plan: &Plan, plane: &PlanePlan) -> PlaneView {
     }
 }
 
-/// The stepper's registers.
+/// The stepper's coefficients, as words of a world.
 pub(super) fn stepper<W: Open>(
     world: &W,
     scene: &Scene,
@@ -230,7 +230,7 @@ pub(super) fn stepper<W: Open>(
     })
 }
 
-/// The interpolator's registers.
+/// The interpolator's coefficients, as words of a world.
 pub(super) fn interpolator<W: Open>(
     world: &W,
     plan: &Plan,
@@ -308,7 +308,7 @@ pub(super) fn shader<W: Open>(
     })
 }
 
-/// The checker's registers.
+/// The checker's coefficients, as words of a world.
 pub(super) fn checker<W: Open>(
     world: &W,
     scene: &Scene,

@@ -20,11 +20,11 @@ const RSQRT_LOG2: u32 = 10;
 /// The machine's memories for one height map.
 #[derive(Clone, Debug)]
 pub struct Memory<W: World> {
-    /// Nodes.
+    /// Heights of the nodes, height units above the lowest one.
     pub heights: Arc<HeightMemory<W::Height>>,
-    /// Bounds for skipping.
+    /// Bounds for skipping; absent in a plain stepper.
     pub pyramid: Option<Arc<Pyramid<W::Height>>>,
-    /// Kernel tables.
+    /// Weights and slopes of the kernel; absent where not fitted.
     pub rom: Option<Arc<KernelRom<W::Weight>>>,
     /// How nodes are weighted.
     pub form: Form,

@@ -34,9 +34,9 @@ pub enum SetupError {
         "format: {value} does not fit register {register}; widen it or leave its format to the plan"
     )]
     Register {
-        /// The register.
+        /// The register that cannot hold it.
         register: Register,
-        /// The value.
+        /// The value that does not fit, in the register's unit.
         value: f64,
     },
 }
@@ -53,28 +53,28 @@ pub enum Back<W: World> {
 /// The units that draw a height map.
 #[derive(Clone, Debug)]
 pub struct TerrainUnits<W: World> {
-    /// Ray stepper.
+    /// Finds the first sample of a ray under the surface.
     pub stepper: Stepper<W>,
-    /// Interpolator.
+    /// Gives height and slopes at the hit.
     pub interpolator: Interpolator<W>,
-    /// Shader.
+    /// Light, ramp, mixer and pixel.
     pub shader: Shader<W>,
 }
 
 /// All registers of a machine, loaded.
 #[derive(Clone, Debug)]
 pub struct Setup<W: World> {
-    /// The number world.
+    /// The number world whose words the coefficients are.
     pub world: W,
     /// Pixels across.
     pub columns: u32,
     /// Scan lines.
     pub lines: u32,
-    /// Projector.
+    /// Gives the view vectors by additions.
     pub projector: Projector<W>,
-    /// Divider, where fitted.
+    /// Gives the place where rays meet a plane; absent where not fitted.
     pub divider: Option<Divider<W>>,
-    /// What follows.
+    /// The units behind the divider, by the kind of surface.
     pub back: Back<W>,
     /// Units of another kind of surface are fitted, and idle.
     pub idle: bool,

@@ -14,13 +14,13 @@ use crate::word::Register;
 /// One row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct RegisterRow {
-    /// Register.
+    /// The register that the row is about.
     pub register: Register,
     /// Unit that drives it.
     pub unit: &'static str,
-    /// What it holds.
+    /// What it holds, in half a sentence.
     pub meaning: &'static str,
-    /// Physical unit.
+    /// Physical unit of its values.
     pub measure: &'static str,
     /// Numbers of its equations in docs/mathematics.md.
     pub equations: &'static str,
@@ -84,7 +84,7 @@ pub fn row(register: Register) -> RegisterRow {
     }
 }
 
-/// docs/registers.md.
+/// Text of docs/registers.md.
 pub fn markdown() -> String {
     let mut out = String::from(
         "# Registers\n\n\

@@ -143,7 +143,7 @@ pub struct ArrayReader<'a, R: Read> {
 }
 
 impl<R: Read> ArrayReader<'_, R> {
-    /// Type and shape.
+    /// Type and shape of the array.
     pub fn header(&self) -> &Header {
         &self.header
     }

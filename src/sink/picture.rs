@@ -60,7 +60,7 @@ pub struct Painted {
 }
 
 impl Picture {
-    /// All pictures.
+    /// All pictures, in the order of the window's keys 1 to 6.
     pub const ALL: [Self; 6] =
         [Self::Color, Self::Height, Self::Normal, Self::Steps, Self::Error, Self::Cycles];
 

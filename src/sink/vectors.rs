@@ -65,7 +65,7 @@ pub struct Vectors<'a> {
     pub folder: &'a Path,
 }
 
-/// What was written.
+/// The files that were written, and how their rows were chosen.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Files in the order of the data flow, memories last.

@@ -27,9 +27,9 @@ pub enum CompareError {
          give two .png files or two .npz files"
     )]
     Kind {
-        /// The picture.
+        /// The file that is a picture.
         picture: PathBuf,
-        /// The buffers.
+        /// The file that holds buffers.
         buffers: PathBuf,
     },
     /// Pictures of different sizes.
@@ -91,7 +91,7 @@ impl Comparison {
 pub struct PictureComparison {
     /// Pixels across.
     pub columns: usize,
-    /// Lines.
+    /// Scan lines.
     pub lines: usize,
     /// No pixel differs.
     pub identical: bool,

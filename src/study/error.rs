@@ -23,14 +23,14 @@ use crate::word::real::Real;
 /// Lines and columns that a study looks at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sample {
-    /// Ascending.
+    /// Lines of the sample, ascending.
     pub lines: Vec<u32>,
-    /// Ascending.
+    /// Columns of the sample, ascending.
     pub columns: Vec<u32>,
 }
 
 impl Sample {
-    /// Every pixel.
+    /// The sample that is the whole frame.
     pub fn all(plan: &Plan) -> Self {
         Self {
             lines: (0..plan.geometry.lines).collect(),
@@ -61,7 +61,7 @@ impl Sample {
         Self { lines: Self::strips(plan, count, seed).lines, ..Self::all(plan) }
     }
 
-    /// Number of pixels.
+    /// Number of pixels in the sample.
     pub fn len(&self) -> usize {
         self.lines.len() * self.columns.len()
     }
@@ -89,9 +89,9 @@ pub enum Sheet {
 /// Errors of one pixel; lengths are NaN but on the same sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct PixelError {
-    /// Scan line.
+    /// Scan line of the pixel, from the top.
     pub line: u32,
-    /// Column.
+    /// Column of the pixel, from the left.
     pub column: u32,
     /// Which kind of pixel.
     pub sheet: Sheet,
@@ -271,9 +271,9 @@ fn one(oracle: &Oracle, line: u32, column: u32, fixed: Seen, real: Seen) -> Pixe
 pub struct Spread {
     /// Half of the pixels are at most this.
     pub median: f64,
-    /// 99.9 % are.
+    /// 99.9 % are at most this.
     pub p999: f64,
-    /// All are.
+    /// The largest.
     pub max: f64,
 }
 
@@ -297,7 +297,7 @@ impl Spread {
 /// Errors over a sample.
 #[derive(Clone, Debug, Serialize)]
 pub struct ErrorReport {
-    /// Pixels looked at.
+    /// Pixels of the sample.
     pub pixels: usize,
     /// Lines and columns they come from.
     pub sampled_lines: usize,
@@ -305,7 +305,7 @@ pub struct ErrorReport {
     pub sampled_columns: usize,
     /// Pixels on the same sheet.
     pub same_sheet: usize,
-    /// Silhouette pixels.
+    /// Pixels where the two see different sheets.
     pub silhouettes: usize,
     /// Pixels that the machine calls out of range.
     pub beyond: usize,

@@ -22,34 +22,34 @@ use trace::{PixelTrace, Reading, Trace};
 pub struct Row {
     /// Unit that drives the register.
     pub unit: &'static str,
-    /// What it is.
+    /// Name of the quantity.
     pub what: String,
-    /// Register.
+    /// Register whose format it has.
     pub register: &'static str,
-    /// Its format.
+    /// Its format, as `Q12.20`, or `f64`.
     pub format: String,
-    /// Its bits.
+    /// Its bits; none in worlds without bits.
     pub raw: Option<i64>,
-    /// Its value.
+    /// Its value in the register's unit.
     pub value: f64,
     /// The same in the real world.
     pub real: Option<f64>,
-    /// The closed form.
+    /// What the closed form says, where it says something.
     pub oracle: Option<f64>,
-    /// Value minus real.
+    /// Fixed-point value minus real value.
     pub error: Option<f64>,
     /// Derived bound of the error, where there is one.
     pub bound: Option<f64>,
-    /// Equation numbers.
+    /// Numbers of its equations in docs/mathematics.md.
     pub equations: &'static str,
 }
 
-/// A pixel explained.
+/// One pixel in fixed point, in `f64` and by the oracle, quantity by quantity.
 #[derive(Clone, Debug, Serialize)]
 pub struct Explanation {
-    /// Column.
+    /// Column of the pixel, from the left.
     pub column: u32,
-    /// Line.
+    /// Line of the pixel, from the top.
     pub line: u32,
     /// Outcome in fixed point.
     pub hit: &'static str,

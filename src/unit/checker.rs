@@ -47,7 +47,7 @@ pub struct Checker<W: World> {
     pub contrast_exponent: i32,
     /// See `contrast_exponent`.
     pub contrast_gain: W::Tone,
-    /// One.
+    /// The contrast of a square seen in full.
     pub one: W::Tone,
     /// The denominator from which on contrast is full: larger ones are not scaled. Absent where no
     /// pixel of the screen reaches it.

@@ -39,12 +39,12 @@ macro_rules! coefficients {
                 match self { $(Self::$variant => $name,)* }
             }
 
-            /// What it is.
+            /// How it is loaded: its bits in hardware.
             pub const fn kind(self) -> Kind {
                 match self { $(Self::$variant => $kind,)* }
             }
 
-            /// What it holds.
+            /// What it holds, in half a sentence.
             pub const fn meaning(self) -> &'static str {
                 match self { $(Self::$variant => $meaning,)* }
             }

@@ -18,9 +18,9 @@ pub struct Description {
     pub stage: &'static str,
     /// What it gives, in half a sentence.
     pub gives: &'static str,
-    /// Wires in.
+    /// Wires that it reads.
     pub inputs: &'static [Wire],
-    /// Wires out.
+    /// Wires that it drives.
     pub outputs: &'static [Wire],
     /// Registers whose formats its arithmetic has.
     pub registers: &'static [Register],

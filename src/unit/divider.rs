@@ -57,12 +57,12 @@ pub enum Method {
     Direct,
 }
 
-/// The divider's registers.
+/// The divider's coefficients.
 #[derive(Clone, Debug)]
 pub struct Divider<W: World> {
     /// Foot of the ratio: the eye, x.
     pub eye_x: W::Ground,
-    /// The eye, z.
+    /// The eye, z in cells.
     pub eye_z: W::Ground,
     /// Exponent, range and format of the quotient in x.
     pub ratio_x: Ratio<<W::Ground as Word>::Format>,

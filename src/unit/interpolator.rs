@@ -88,13 +88,13 @@ pub enum Form {
 /// The interpolator's memories and registers.
 #[derive(Clone, Debug)]
 pub struct Interpolator<W: World> {
-    /// The map.
+    /// Heights of the nodes, and which have no data.
     pub heights: Arc<HeightMemory<W::Height>>,
     /// The kernel; unread, and absent where not fitted, when the form is the hat.
     pub rom: Option<Arc<KernelRom<W::Weight>>>,
     /// Which nodes and weights.
     pub form: Form,
-    /// The weight one.
+    /// The weight one: the sum of an axis's weights.
     pub one: W::Weight,
     /// Height unit over cell size, x and z: absent when both are one.
     pub slope_scale: Option<[W::Weight; 2]>,
@@ -105,7 +105,7 @@ pub struct Interpolator<W: World> {
 /// Everything the interpolator computes at one place.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<W: World> {
-    /// Surface height.
+    /// Height of the surface, height units.
     pub surface: W::Height,
     /// Negated slope against x.
     pub slope_x: W::Height,
@@ -348,18 +348,18 @@ pub const AT_THE_HIT: u32 = 1 << 31;
 pub struct Stencil<W: World> {
     /// Nodes by column from west to east, each from north to south.
     pub nodes: [[W::Height; 3]; 3],
-    /// Weights along x.
+    /// Weights of the outer columns of nodes.
     pub weights_x: Outer<W::Weight>,
-    /// Weights along z.
+    /// Weights of the outer rows of nodes.
     pub weights_z: Outer<W::Weight>,
 }
 
 /// Weights and slopes of the outer nodes; those of the centre are implicit.
 #[derive(Clone, Copy, Debug)]
 pub struct Outer<T> {
-    /// Before and after.
+    /// Of the node before the middle one, and of the node after it.
     pub weights: [T; 2],
-    /// Derivatives.
+    /// Derivatives of these weights.
     pub slopes: [T; 2],
 }
 

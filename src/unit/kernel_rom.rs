@@ -37,13 +37,13 @@ impl<T: Word> KernelRom<T> {
         self.weights.log2()
     }
 
-    /// Weights.
+    /// Weights by entry, from 0 to 1.
     #[inline(always)]
     pub fn weights(&self) -> &Table<T> {
         &self.weights
     }
 
-    /// Slopes.
+    /// Derivatives of the weights by entry, per cell.
     #[inline(always)]
     pub fn slopes(&self) -> &Table<T> {
         &self.slopes

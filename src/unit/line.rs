@@ -181,7 +181,7 @@ macro_rules! wires {
                 }
             }
 
-            /// What it carries.
+            /// What it carries, in half a sentence.
             pub fn meaning(self) -> &'static str {
                 match self {
                     $(Self::$wire => $meaning,)*

@@ -68,7 +68,7 @@ struct Axis {
     blocks: i32,
     /// Index of the first stored bound: −1 where the map ends, 0 elsewhere.
     first: i32,
-    /// Stored bounds.
+    /// Bounds stored per axis.
     stored: i32,
     edge: Edge,
 }
@@ -135,7 +135,7 @@ impl<T: Bound> Pyramid<T> {
         Self { levels, top: level, bounds, edge, columns, rows }
     }
 
-    /// Highest level.
+    /// The highest level that is stored.
     pub fn top(&self) -> u32 {
         self.top
     }

@@ -96,11 +96,11 @@ pub enum BisectionRule {
         /// Most bisection steps: the step still has bits.
         cap: u32,
     },
-    /// Always as many.
+    /// The same number for every hit.
     Fixed(u32),
 }
 
-/// The stepper's registers.
+/// The stepper's coefficients, and the memories that it reads.
 #[derive(Clone, Debug)]
 pub struct Stepper<W: World> {
     /// Whether rays start at the eye; else where they enter the slab.
@@ -111,7 +111,7 @@ pub struct Stepper<W: World> {
     pub eye_z: W::Ground,
     /// The eye, y in height units.
     pub eye_y: W::Height,
-    /// The highest node.
+    /// The highest node, height units.
     pub top: W::Height,
     /// Base of the block under the map.
     pub base: W::Height,
@@ -221,13 +221,13 @@ pub struct Heading {
 /// The end of a walk.
 #[derive(Clone, Copy, Debug)]
 pub struct Walk<W: World> {
-    /// Outcome.
+    /// What the ray meets.
     pub hit: Hit,
     /// Refined place of a hit; elsewhere the last place reached.
     pub place: Place<W>,
     /// Index of the sample that hit, or of the last one.
     pub index: u32,
-    /// What it took.
+    /// What the walk took.
     pub work: Work,
 }
 
@@ -241,7 +241,7 @@ impl<W: World> Stepper<W> {
         }
     }
 
-    /// The eye.
+    /// The eye as a place on the map.
     #[inline(always)]
     pub fn eye(&self) -> Place<W> {
         Place { x: self.eye_x, y: self.eye_y, z: self.eye_z }

@@ -22,7 +22,7 @@ pub enum Action {
     NextEngine(Side),
     /// The next shape of the finite function.
     NextShape,
-    /// The next deformation.
+    /// Go on to the next deformation: 0, 1, 2.
     NextDeformation,
     /// Add to d of the weight 2^-d.
     Weight(i32),

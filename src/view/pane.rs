@@ -6,9 +6,9 @@ use crate::sink::picture::Picture;
 /// A picture by an engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pane {
-    /// Its engine.
+    /// The engine that draws it.
     pub engine: Engine,
-    /// What is seen.
+    /// The picture that it shows.
     pub picture: Picture,
 }
 

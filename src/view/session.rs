@@ -171,7 +171,7 @@ impl Session {
         self.pace.advance(seconds)
     }
 
-    /// Does an action.
+    /// Changes the session; what the loop has to do as well is returned.
     pub fn act(&mut self, action: Action) -> Option<Effect> {
         if !matches!(action, Action::Point(_)) {
             self.notice = None;

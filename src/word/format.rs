@@ -57,7 +57,7 @@ impl std::fmt::Display for Fixed {
 }
 
 impl Overflow {
-    /// All of them.
+    /// Both, in the order in which messages list them.
     pub const ALL: [Self; 2] = [Self::Wrap, Self::Saturate];
 
     /// Name in scene files, options and headers of test vectors.
@@ -75,7 +75,7 @@ impl Overflow {
 }
 
 impl Rounding {
-    /// All of them.
+    /// All of them, in the order in which messages list them.
     pub const ALL: [Self; 5] =
         [Self::Floor, Self::TowardZero, Self::Nearest, Self::NearestEven, Self::Stochastic];
 

@@ -17,10 +17,10 @@ pub enum Target {
 }
 
 impl Target {
-    /// Both.
+    /// Both, the smaller family first.
     pub const ALL: [Self; 2] = [Self::Ice40, Self::Ecp5];
 
-    /// Name in reports.
+    /// Name of the family, as its maker spells it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ice40 => "iCE40",

@@ -106,7 +106,7 @@ impl<'a, W: Complete> Benches<'a, W> {
         Ok(())
     }
 
-    /// Closes the files.
+    /// Ends all files with their checksums.
     pub fn finish(self) -> Result<Vec<Written>, SinkError> {
         self.benches.into_iter().map(|bench| bench.sheet.finish()).collect()
     }

@@ -94,7 +94,7 @@ impl<'a, W: Complete> Scan<'a, W> {
         Ok(())
     }
 
-    /// Closes both files.
+    /// Ends both files with their checksums.
     pub fn finish(self) -> Result<[Written; 2], SinkError> {
         Ok([self.rows.finish()?, self.sets.finish()?])
     }

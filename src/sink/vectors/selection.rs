@@ -46,7 +46,7 @@ impl Columns {
 pub struct Selection {
     /// Lines, ascending, and columns on them.
     pub lines: Vec<(u32, Columns)>,
-    /// In words.
+    /// The choice in words, for headers and reports.
     pub said: String,
 }
 

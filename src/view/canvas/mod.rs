@@ -52,7 +52,7 @@ impl Canvas {
         &self.pixels
     }
 
-    /// sRGB bytes.
+    /// The picture as sRGB bytes, line by line.
     #[must_use]
     pub fn bytes(&self) -> Vec<[u8; 3]> {
         self.pixels

@@ -65,7 +65,7 @@ impl Chain {
     }
 }
 
-/// Who takes finished pixels from the frame.
+/// When finished pixels are taken from the frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Taker {
     /// Takes a pixel in every cycle.

@@ -27,7 +27,7 @@ module walk_plan (
     output logic        [ 4:0] level,              // of the skip test
     output logic        [ 5:0] jump_log2,          // its steps, as a power of two
     output logic               skip_test_follows,  // else a burst follows
-    output logic        [ 6:0] run                 // of so many samples
+    output logic        [ 6:0] run                 // of this many samples
 );
   logic [25:0] remaining_here;
   logic [6:0] run_ahead, run_next, run_here;

@@ -1,6 +1,6 @@
 //! The engines by name.
 
-/// Who draws the frame.
+/// What draws a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, clap::ValueEnum)]
 pub enum Engine {
     /// Line by line, units in their order.

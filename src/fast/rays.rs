@@ -170,7 +170,7 @@ impl<W: Packed, S: Simd> Rays<W, S> {
         }
     }
 
-    /// Moves the rays that walk so many samples on.
+    /// Moves the rays that walk this many samples on.
     #[inline(always)]
     pub fn skip(&mut self, steps: u32) {
         let simd = self.index.token();
@@ -178,7 +178,7 @@ impl<W: Packed, S: Simd> Rays<W, S> {
         self.advance(self.walks.select(u32x16::simd_from(simd, steps), none));
     }
 
-    /// Moves rays so many samples on.
+    /// Moves rays this many samples on.
     #[inline(always)]
     pub fn advance(&mut self, steps: u32x16<S>) {
         for (place, step) in self.place.iter_mut().zip(self.step) {

@@ -124,7 +124,7 @@ element!(u32, U4, 1, 0, values => Scalars::U4(values));
 element!([u8; 3], U1, 3, [0; 3], values => Scalars::U1(values.as_flattened()));
 element!(Hit, U1, 1, Hit::Sky, values => Scalars::Hit(values));
 
-/// Who can give a buffer; each also gives what those before it give.
+/// Which engines give a buffer; each also gives what those before it give.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Giver {
     /// All engines and the oracle.
@@ -153,7 +153,7 @@ impl BufferRow {
         Self { name, dtype: T::DTYPE, components: T::COMPONENTS, giver, holds }
     }
 
-    /// The array's axes for a frame of so many lines and columns.
+    /// The array's axes for a frame of this many lines and columns.
     #[must_use]
     pub fn shape(&self, lines: usize, columns: usize) -> Vec<usize> {
         let third = (self.components > 1).then_some(self.components);
@@ -185,7 +185,7 @@ macro_rules! table {
         }
 
         impl Buffers {
-            /// Room for so many pixels.
+            /// Room for this many pixels.
             #[must_use]
             pub fn with_room(pixels: usize) -> Self {
                 Self { $($name: Vec::with_capacity(pixels),)* }

@@ -22,7 +22,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Room for so many pixels, none drawn.
+    /// Room for this many pixels, none drawn.
     #[must_use]
     pub fn with_room(columns: usize, lines: usize, buffers: bool) -> Self {
         let pixels = columns * lines;

@@ -72,7 +72,7 @@ impl PlanePlan {
             WordSize::Wide => (wide()?, "asked for".to_owned()),
             WordSize::Auto => match stock(WordClass::NARROW, FINE) {
                 Ok(plan) => (plan, "positions and pixels fit".to_owned()),
-                Err(refusal) => (wide()?, format!("32 bits do not do: {}", refusal.reason)),
+                Err(refusal) => (wide()?, format!("32 bits are not enough: {}", refusal.reason)),
             },
         };
         Ok((plan, Finding::proved(why)))

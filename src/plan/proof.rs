@@ -109,7 +109,7 @@ impl Formats<'_> {
     }
 }
 
-/// A length of which a pixel has so many: `1/115 pixel`, or `35.61 pixels` where it is not small.
+/// A length as a share of a pixel, given how many of it a pixel has: `1/115 pixel`, or `35.61 pixels` where it is not small.
 pub(super) fn in_pixels(per_pixel: f64) -> String {
     if per_pixel >= 10.0 {
         format!("1/{per_pixel:.0} pixel")

@@ -82,7 +82,7 @@ struct Needs {
 }
 
 /// Eyes less than this above the highest node start their rays at the eye: the ratio of so thin a
-/// layer would have no bits.
+/// slab would have no bits.
 const THIN_LAYER: f64 = 1.0 / 256.0;
 
 impl TerrainPlan {
@@ -129,7 +129,7 @@ impl TerrainPlan {
             (WordSize::Wide, _) => (stock(WordClass::WIDE)?.0, "asked for".to_owned()),
             (WordSize::Auto, Ok(found)) => found,
             (WordSize::Auto, Err(refusal)) => {
-                let why = format!("32 bits do not do: {}", refusal.reason);
+                let why = format!("32 bits are not enough: {}", refusal.reason);
                 (stock(WordClass::WIDE)?.0, why)
             }
         };

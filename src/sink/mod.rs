@@ -49,7 +49,7 @@ pub enum SinkError {
         path: PathBuf,
     },
     /// A folder is to be made where something is.
-    #[error("cannot write {path}: it is there already; remove it or choose another name")]
+    #[error("cannot write {path}: it exists already; remove it or choose another name")]
     Occupied {
         /// The folder that was to be made.
         path: PathBuf,
@@ -189,7 +189,7 @@ enum Target {
         /// The file behind symbolic links.
         file: PathBuf,
         folder: PathBuf,
-        /// Those of the file that is there already.
+        /// Those of the file that exists already.
         permissions: Option<fs::Permissions>,
     },
 }

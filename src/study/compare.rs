@@ -168,7 +168,7 @@ pub struct ArrayComparison {
     pub worst: Option<Vec<usize>>,
 }
 
-/// Compares two PNG files or two `.npz` files; `.npz` is told by its name or its first bytes.
+/// Compares two PNG files or two `.npz` files; `.npz` is recognised by its name or its first bytes.
 ///
 /// # Errors
 /// [`CompareError`] when a file cannot be read, the two are of different kinds, or their sizes

@@ -1,6 +1,6 @@
 //! The coefficient registers: what is loaded before a frame and does not change within it.
 //!
-//! Every coefficient stands once, in the list at the end of this file. Units put their values into
+//! Every coefficient is declared once, in the list at the end of this file. Units put their values into
 //! a [`Bank`]; test vectors and the RTL's register bank read them from there.
 
 use crate::word::{Open, Readout, Register, World};
@@ -16,7 +16,7 @@ pub enum Kind {
     Flag,
     /// One of up to four cases.
     Code,
-    /// A whole number that is not negative, of so many bits in hardware.
+    /// A whole number that is not negative, of this many bits in hardware.
     Count(u32),
     /// A power of two.
     Exponent,

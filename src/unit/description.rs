@@ -51,7 +51,7 @@ impl Cycles {
         Self { item, skip_test: 0, sample: 0, burst: 0, bisection_step: 0, hit: 0 }
     }
 
-    /// On an item for which the stepper did so much.
+    /// On an item for which the stepper did this work.
     pub fn of(self, work: Work) -> u32 {
         self.item
             + work.skip_tests * self.skip_test
@@ -74,7 +74,7 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// A pipeline that takes an item every so many cycles, with a queue for all that it holds.
+    /// A pipeline that takes an item every this many cycles, with a queue for all that it holds.
     pub const fn pipeline(every: u32, latency: u32) -> Self {
         Self { work: Cycles::every(every), latency, depth: latency + 1 }
     }

@@ -39,7 +39,7 @@ pub const DESCRIPTION: Description = Description {
 /// Register stages besides one per quotient bit: shift, bias and range, eye.
 pub const ENDS: u32 = 3;
 
-/// Cycles of a divider of so many quotient bits.
+/// Cycles of a divider of this many quotient bits.
 pub const fn timing(bits: u32, serial: bool) -> Timing {
     if serial {
         Timing { work: Cycles::every(bits + ENDS), latency: 1, depth: 2 }

@@ -67,7 +67,7 @@ pub const fn height_latency(memory_latency: u32) -> u32 {
     nodes_latency(memory_latency) + LERP_LATENCY
 }
 
-/// Cycles at the hit, where an interpolation takes so many cycles of reading.
+/// Cycles at the hit, where an interpolation takes this many cycles of reading.
 pub const fn timing(reads: u32, memory_latency: u32) -> Timing {
     Timing::pipeline(reads, height_latency(memory_latency) + SLOPE_LATENCY)
 }

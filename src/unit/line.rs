@@ -1,6 +1,6 @@
 //! The wires of one scan line: a structure of arrays, one entry per pixel in flight.
 //!
-//! Every wire stands once, in the list at the end of this file. What passes wires on (test vectors,
+//! Every wire is declared once, in the list at the end of this file. What passes wires on (test vectors,
 //! co-simulation, explanations, overflow counts) names them by [`Wire`].
 
 use super::projector::LineStart;

@@ -61,7 +61,7 @@ pub const RAY_START: u32 = 4;
 /// how many they are, and one to place it.
 pub const RAY_END: u32 = 2;
 
-/// Cycles over a map whose interpolations take so many cycles of reading: every skip test waits for
+/// Cycles over a map whose interpolations take this many cycles of reading: every skip test waits for
 /// the pyramid, samples stream through the interpolation in bursts, bisection steps wait for each other.
 /// With holes, the bits of the two places between which a hit lies are read once more.
 pub const fn timing(reads: u32, void_bits: bool, memory_latency: u32) -> Timing {
@@ -178,7 +178,7 @@ impl<W: World> Place<W> {
         self.y.is_below(height, site.at(Register::Surface))
     }
 
-    /// A step halved so many times.
+    /// A step halved this many times.
     #[inline(always)]
     #[must_use]
     pub fn halved(self, times: u32) -> Self {
@@ -189,7 +189,7 @@ impl<W: World> Place<W> {
         }
     }
 
-    /// A step doubled so many times.
+    /// A step doubled this many times.
     #[inline(always)]
     #[must_use]
     pub fn doubled(self, times: u32) -> Self {

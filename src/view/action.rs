@@ -44,7 +44,7 @@ pub enum Action {
     TogglePanels,
     /// Back to the scene's camera.
     Reset,
-    /// Turn as if the scene were dragged by so many window pixels, right and down.
+    /// Turn as if the scene were dragged by this many window pixels, right and down.
     Drag(f64, f64),
     /// Turn by degrees: heading to the left, nose up, right wing down.
     Turn(f64, f64, f64),
@@ -52,7 +52,7 @@ pub enum Action {
     Zoom(f64),
     /// Move along the line of sight by notches.
     Dolly(f64),
-    /// Fly along a course for so many seconds.
+    /// Fly along a course for this many seconds.
     Fly(Course, f64),
     /// The cursor is at a place of the window, or has left it.
     Point(Option<(i32, i32)>),

@@ -123,7 +123,7 @@ impl<'a> View<'a> {
         Ok(())
     }
 
-    /// Runs so many frames, with the script's input in the first of them, and returns the last
+    /// Runs this many frames, with the script's input in the first of them, and returns the last
     /// picture, which is drawn to its end.
     ///
     /// # Errors

@@ -107,7 +107,7 @@ impl Image {
 pub struct Timing {
     /// What the time was spent on.
     pub source: Source,
-    /// Milliseconds, coefficient set-up in, maps and tables out.
+    /// Milliseconds, with coefficient set-up, without maps and tables.
     pub ms: f64,
 }
 

@@ -177,7 +177,7 @@ fn real_files_with_voids_are_drawn_by_their_rule() {
     ] {
         let path = folder.join(name);
         if !path.exists() {
-            println!("skipped: {} is not there", path.display());
+            println!("skipped: {} does not exist", path.display());
             continue;
         }
         under_every_rule(&path, [240, 150], voids, fill);

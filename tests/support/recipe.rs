@@ -29,7 +29,7 @@ pub enum Voids {
     None,
     /// A share of all nodes, here and there.
     Scattered(f64),
-    /// Whole blocks, of so many nodes a side.
+    /// Whole blocks, of this many nodes a side.
     Blocks(usize),
     /// The outermost nodes.
     Border,

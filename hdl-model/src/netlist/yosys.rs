@@ -119,7 +119,7 @@ impl Scratch {
     /// The text of a file in it.
     ///
     /// # Errors
-    /// If it is not there.
+    /// If it does not exist.
     pub fn read(&self, name: &str) -> Result<String, String> {
         std::fs::read_to_string(self.file(name)).map_err(|error| format!("{name}: {error}"))
     }
@@ -127,7 +127,7 @@ impl Scratch {
     /// A file in it that a tool wrote as JSON.
     ///
     /// # Errors
-    /// If it is not there or is no JSON.
+    /// If it does not exist or is no JSON.
     pub fn json(&self, name: &str) -> Result<Value, String> {
         serde_json::from_str(&self.read(name)?).map_err(|error| format!("{name}: {error}"))
     }

@@ -145,7 +145,7 @@ pub fn run(only: Option<&str>, limit: Duration) -> Result<(), String> {
 /// Reads `sizes.json`.
 ///
 /// # Errors
-/// If it is not there or is something else.
+/// If it does not exist or is something else.
 pub fn load() -> Result<Sizes, String> {
     let path = file("sizes.json");
     let text = std::fs::read_to_string(&path);

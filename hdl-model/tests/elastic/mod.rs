@@ -26,7 +26,7 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// A random pace for so many items: full speed, gaps and stalls of all kinds.
+    /// A random pace for this many items: full speed, gaps and stalls of all kinds.
     pub fn random(random: &mut Random, items: usize) -> Self {
         let [gaps, stalls] = [(); 2].map(|()| [0, 0, 32, 128, 224][random.within(0, 4) as usize]);
         let mut cycle = random.within(1, 20) as u64;

@@ -96,7 +96,7 @@ impl<W: Complete> CornerCases<W> {
         W::Height::load_raw(bits, format).unwrap_or(W::Height::zero(format))
     }
 
-    /// Wires of so many pixels.
+    /// Wires of this many pixels.
     fn idle(&self, pixels: u32) -> Line<W> {
         Line::new(&self.world, 0..pixels)
     }
@@ -166,7 +166,7 @@ impl<W: Complete> CornerCases<W> {
         W::View::load_raw(bits, self.world.view(Register::ViewX))
     }
 
-    /// A coordinate on or near a map of so many nodes: within a cell, on its rim, on its middle.
+    /// A coordinate on or near a map of this many nodes: within a cell, on its rim, on its middle.
     fn coordinate(&mut self, nodes: i32, register: Register) -> i64 {
         let point = self.fixed(register).point;
         let (one, half) = (1_i64 << point, (1_i64 << point) >> 1);

@@ -18,7 +18,7 @@ pub enum Choice {
 /// Columns of a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Columns {
-    /// All of so many.
+    /// All of them, this many.
     All(u32),
     /// These, ascending.
     Some(Vec<u32>),

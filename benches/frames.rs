@@ -1,4 +1,4 @@
-//! Whole frames of the built-in scenes, coefficient set-up in, maps and tables out; and the skip
+//! Whole frames of the built-in scenes, with coefficient set-up, without maps and tables; and the skip
 //! pyramid of a 4096² map.
 
 mod support;

@@ -256,7 +256,7 @@ fn sources(top: &str) -> Vec<PathBuf> {
     found.iter().map(|module| file(module)).collect()
 }
 
-/// Has a folder made where it is not there yet.
+/// Makes a folder unless it exists.
 fn keep(folder: &Path, making: &Path, make: impl FnOnce(&Path)) {
     if folder.is_dir() {
         return;

@@ -15,15 +15,15 @@
 use crate::setup::Setup;
 use crate::unit::line::Work;
 use crate::unit::{Line, Timing};
-use crate::word::format::mix;
+use crate::word::format::hash;
 use crate::word::{Complete, World};
 
 /// One stage of the chain: a unit, or several that work on an item together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stage {
-    /// Name.
+    /// Name of the stage: that of its unit, or of the stage that its units share.
     pub name: &'static str,
-    /// Its cycles.
+    /// Work, latency and depth.
     pub timing: Timing,
 }
 
@@ -33,7 +33,7 @@ const FRAME: Stage = Stage { name: "frame", timing: Timing { depth: 1, ..Timing:
 /// What a unit did over all items.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Occupancy {
-    /// Cycles of work.
+    /// Cycles in which it worked on an item.
     pub busy: u64,
     /// Cycles in which an item was there but the next unit had no room.
     pub stalled: u64,
@@ -65,32 +65,32 @@ impl Chain {
     }
 }
 
-/// Who takes finished pixels from the frame.
+/// When finished pixels are taken from the frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sink {
+pub enum Taker {
     /// Takes a pixel in every cycle.
     #[default]
     Ready,
     /// Is busy in some cycles, chosen by a seed.
     Busy {
-        /// Which cycles.
+        /// Seed of the random bits that choose the cycles.
         seed: u64,
         /// How many of 256, below 256.
         of_256: u8,
     },
 }
 
-impl Sink {
+impl Taker {
     /// Whether it takes a pixel in a cycle, counted from 0.
     pub fn is_ready(self, cycle: u64) -> bool {
         match self {
             Self::Ready => true,
-            Self::Busy { seed, of_256 } => mix(seed, cycle) as u8 >= of_256,
+            Self::Busy { seed, of_256 } => hash(seed, cycle) as u8 >= of_256,
         }
     }
 }
 
-/// The running recurrence.
+/// Equation 28, evaluated pixel by pixel.
 #[derive(Clone, Debug)]
 pub struct Clock {
     chain: Chain,
@@ -99,7 +99,7 @@ pub struct Clock {
     /// Per unit, the first cycle in which it is done with the item before.
     free: Vec<u64>,
     occupancy: Vec<Occupancy>,
-    sink: Sink,
+    taker: Taker,
     items: u64,
     last: u64,
 }
@@ -120,17 +120,17 @@ impl Clock {
             taken: depths.take(chain.stages.len()).map(ring).collect(),
             free: vec![0; chain.stages.len()],
             occupancy: vec![Occupancy::default(); chain.stages.len()],
-            sink: Sink::Ready,
+            taker: Taker::Ready,
             items: 0,
             last: 0,
             chain,
         }
     }
 
-    /// The clock with another sink behind the frame.
+    /// The clock with another taker behind the frame.
     #[must_use]
-    pub fn with_sink(self, sink: Sink) -> Self {
-        Self { sink, ..self }
+    pub fn with_taker(self, taker: Taker) -> Self {
+        Self { taker, ..self }
     }
 
     /// One pixel; returns the cycle (from 1) in which the frame takes it.
@@ -146,7 +146,7 @@ impl Clock {
                 _ => 0,
             };
             let mut entered = here.max(room);
-            while unit + 1 == count && !self.sink.is_ready(entered) {
+            while unit + 1 == count && !self.taker.is_ready(entered) {
                 entered += 1;
             }
             let cycles = timing.work.of(work);

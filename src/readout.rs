@@ -5,7 +5,7 @@
 use glam::DVec3;
 
 use crate::frame::{Buffers, Frame, Giver, Hit, Pixel};
-use crate::plan::{Ground, Plan};
+use crate::plan::{Plan, SurfacePlan};
 use crate::unit::Line;
 use crate::word::{Open, Readout};
 
@@ -21,20 +21,20 @@ impl<'a> Reader<'a> {
         Self { plan }
     }
 
-    /// Pixel `i` of a line that met something; `None` for sky and far.
+    /// Pixel `i` of a line that met something; `None` for sky and out of range.
     pub fn pixel<W: Open>(&self, line: &Line<W>, i: usize) -> Option<Pixel> {
         if !matches!(line.hit[i], Hit::Surface | Hit::Side) {
             return None;
         }
-        let (point, normal) = match &self.plan.ground {
-            Ground::Terrain(walk) => {
+        let (point, normal) = match &self.plan.surface {
+            SurfacePlan::Terrain(walk) => {
                 let (x, z) = (line.ground_x[i].value(), line.ground_z[i].value());
                 let height = walk.scale.to_scene(line.surface[i].value());
                 let point = DVec3::new(x * walk.lengths.x, height, z * walk.lengths.z);
                 let (slope_x, slope_z) = (line.slope_x[i].value(), line.slope_z[i].value());
                 (point, DVec3::new(slope_x, 1.0, slope_z).normalize())
             }
-            Ground::Plane(plane) => {
+            SurfacePlan::Plane(plane) => {
                 let (x, z) = (line.entry_x[i].value(), line.entry_z[i].value());
                 let foot =
                     plane.normal * (plane.numerator + plane.normal.dot(self.plan.geometry.eye));
@@ -58,14 +58,14 @@ impl<'a> Reader<'a> {
             height: point.y,
             normal: normal.to_array(),
             steps: if lambda.is_finite() { line.steps[i] } else { 0 },
-            trials: line.work[i].trials,
+            trials: line.work[i].skip_tests,
         })
     }
 
     /// Appends a line to buffers. Skip tests are counted on misses, too.
     pub fn read<W: Open>(&self, line: &Line<W>, giver: Giver, buffers: &mut Buffers) {
         for i in 0..line.len() {
-            let miss = || Pixel { trials: line.work[i].trials, ..Pixel::MISS };
+            let miss = || Pixel { trials: line.work[i].skip_tests, ..Pixel::MISS };
             buffers.push(self.pixel(line, i).unwrap_or_else(miss), giver);
         }
     }

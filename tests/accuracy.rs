@@ -9,7 +9,7 @@ mod exact;
 use support::recipe::{Eye, recipes};
 use support::{SHAPES, builtin, machine, runner};
 use terraline::plan::Plan;
-use terraline::scene::{Deformation, Halvings, Scene, WordSize};
+use terraline::scene::{Bisection, Deformation, Scene, WordSize};
 use terraline::study::error::{ErrorReport, PixelError, Sample, Sheet, Spread};
 
 fn errors(scene: &Scene, strips: u32) -> ErrorReport {
@@ -126,7 +126,7 @@ fn random_scenes_keep_their_bounds() {
     let result = runner(220).run(&recipes(), |mut recipe| {
         // The machine's own refinement, with steps that lose few ridges, and slopes that do not
         // turn a small error along the ray into a large one across it.
-        recipe.halvings = Halvings::Footprint;
+        recipe.bisection = Bisection::Footprint;
         recipe.fineness = 4;
         recipe.kernel.table = 4096;
         recipe.steepness = recipe.steepness.min(2.0);
@@ -147,7 +147,7 @@ fn random_scenes_keep_their_bounds() {
     let count = |sheet| all.iter().filter(|p| p.sheet == sheet).count();
     let (same, silhouettes) = (count(Sheet::Same), count(Sheet::Silhouette));
     let total = Spread::of(all.iter().map(|p| p.total_px));
-    // Far and sky have colours of their own here, which the oracle parts elsewhere.
+    // Out of range and sky have colours of their own here, which the oracle parts elsewhere.
     let met = || all.iter().filter(|p| p.sheet != Sheet::Empty);
     let close = met().filter(|p| p.color <= 2).count() as f64 / met().count() as f64;
     println!("{same} same sheet, {silhouettes} silhouettes, {total:?}, colour {close:.5}");

@@ -14,7 +14,7 @@ use terraline::study::bounds;
 use terraline::study::error::Sample;
 use terraline::study::explain::{Explanation, keeps_bounds};
 use terraline::word::Fixed;
-use terraline::word::format::mix;
+use terraline::word::format::hash;
 
 /// Measurements of one register.
 #[derive(Clone, Copy, Debug, Default)]
@@ -118,7 +118,7 @@ fn random_attitudes_keep_their_bounds() {
     for name in support::SCENES {
         for turn in 0..8_u64 {
             let mut scene = builtin(name, 640, 480);
-            let angle = |at: u64| mix(turn, at) as f64 / u64::MAX as f64;
+            let angle = |at: u64| hash(turn, at) as f64 / u64::MAX as f64;
             scene.camera.attitude = Attitude::Angles(Angles {
                 heading: 400.0 * angle(0) - 200.0,
                 pitch: -0.6 * angle(1),

@@ -268,7 +268,7 @@ fn compare_ends_by_what_it_finds() {
         let names = ["fast", "processor", "full", "coarse"].map(|name| format!("{name}.{kind}"));
         let [fast, processor, full, coarse] = names.each_ref().map(String::as_str);
         assert_eq!(code(&[processor, full, "--max-diff", "0"]), Some(0));
-        // The processor's buffers have one array more, the trials: the fast engine has none.
+        // The processor's buffers have one array more, `trials`: the fast engine has none.
         assert_eq!(code(&[processor, fast, "--max-diff", "0"]), Some(0));
         assert_eq!(code(&[processor, coarse]), Some(0));
         assert_eq!(code(&[processor, coarse, "--max-diff", "0"]), Some(1));

@@ -1,7 +1,7 @@
 //! The cycle recurrence against a simulation that goes cycle by cycle, and costs that can be
 //! counted by hand.
 
-use terraline::clock::{Chain, Clock, Sink};
+use terraline::clock::{Chain, Clock, Taker};
 use terraline::engine::{Machine, Memories};
 use terraline::plan::Plan;
 use terraline::processor::{self, Processor};
@@ -40,7 +40,7 @@ struct Case {
 const PLAIN: Case = Case { reads: 1, divider: 1 };
 
 /// Completion cycles of all items, by stepping a clock and asking every unit what it can do.
-fn simulate(chain: &Chain, machine: &Case, work: &[Work], sink: Sink) -> Vec<u64> {
+fn simulate(chain: &Chain, machine: &Case, work: &[Work], taker: Taker) -> Vec<u64> {
     let units = chain.stages.len();
     let stepper = chain.stage("stepper");
     let cycles = |unit: usize, item: usize| -> u64 {
@@ -71,7 +71,7 @@ fn simulate(chain: &Chain, machine: &Case, work: &[Work], sink: Sink) -> Vec<u64
             // Places are freed the cycle after the next unit takes an item.
             let gone = if unit + 1 < units { before[unit + 1] } else { item };
             let room = item - gone < chain.stages[unit].timing.depth as usize;
-            if arrived && idle && room && (unit + 1 < units || sink.is_ready(now)) {
+            if arrived && idle && room && (unit + 1 < units || taker.is_ready(now)) {
                 taken[unit].push(now);
             }
         }
@@ -80,8 +80,8 @@ fn simulate(chain: &Chain, machine: &Case, work: &[Work], sink: Sink) -> Vec<u64
     taken[units - 1].iter().map(|at| at + 1).collect()
 }
 
-fn recurrence(chain: &Chain, work: &[Work], sink: Sink) -> Vec<u64> {
-    let mut clock = Clock::new(chain.clone()).with_sink(sink);
+fn recurrence(chain: &Chain, work: &[Work], taker: Taker) -> Vec<u64> {
+    let mut clock = Clock::new(chain.clone()).with_taker(taker);
     work.iter().map(|&work| clock.take(work)).collect()
 }
 
@@ -101,9 +101,9 @@ fn the_recurrence_is_what_a_cycle_by_cycle_simulation_does() {
             ["screen.size=[24, 18]", set].into_iter().take(1 + set.len().min(1)).collect();
         let (chain, work) = chain_and_work(name, &sets);
         assert_eq!(work.len(), 24 * 18);
-        for sink in [Sink::Ready, Sink::Busy { seed: 7, of_256: 100 }] {
-            let expected = simulate(&chain, &case, &work, sink);
-            assert_eq!(recurrence(&chain, &work, sink), expected, "{name} {set} {sink:?}");
+        for taker in [Taker::Ready, Taker::Busy { seed: 7, of_256: 100 }] {
+            let expected = simulate(&chain, &case, &work, taker);
+            assert_eq!(recurrence(&chain, &work, taker), expected, "{name} {set} {taker:?}");
         }
     }
 }
@@ -112,11 +112,11 @@ fn the_recurrence_is_what_a_cycle_by_cycle_simulation_does() {
 fn queues_fill_and_drain() {
     // Bursts of hard pixels among easy ones stall the units before the stepper.
     let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]"]);
-    let hard = Work { trials: 40, samples: 30, groups: 6, halvings: 12, hits: 1 };
+    let hard = Work { skip_tests: 40, samples: 30, bursts: 6, bisection_steps: 12, hits: 1 };
     let work: Vec<Work> =
         (0..300).map(|i| if i % 50 < 5 { hard } else { Work::default() }).collect();
-    let cycles = recurrence(&chain, &work, Sink::Ready);
-    assert_eq!(cycles, simulate(&chain, &PLAIN, &work, Sink::Ready));
+    let cycles = recurrence(&chain, &work, Taker::Ready);
+    assert_eq!(cycles, simulate(&chain, &PLAIN, &work, Taker::Ready));
     let mut clock = Clock::new(chain);
     work.iter().for_each(|&work| {
         clock.take(work);
@@ -133,7 +133,7 @@ fn stepper_work(chain: &Chain, work: Work) -> u32 {
 fn a_rays_work_is_the_sum_of_its_parts() {
     let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]"]);
     let memory = 2;
-    let work = Work { trials: 3, samples: 5, groups: 2, halvings: 4, hits: 1 };
+    let work = Work { skip_tests: 3, samples: 5, bursts: 2, bisection_steps: 4, hits: 1 };
     let answer = memory + LERP_LATENCY;
     let expected = RAY_START + 3 * (1 + memory) + 5 + 2 * answer + 4 * (1 + answer) + RAY_END;
     assert_eq!(stepper_work(&chain, work), expected);

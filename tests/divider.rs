@@ -25,7 +25,7 @@ fn floor_ratio(numerator: i128, denominator: i128, shift: i32, bits: u32) -> Opt
 }
 
 /// Any word, and often those near the ends, near zero and near powers of two.
-fn hostile(width: u32) -> impl Strategy<Value = i64> {
+fn corner_cases(width: u32) -> impl Strategy<Value = i64> {
     let (low, high) = (i64::MIN >> (64 - width), i64::MAX >> (64 - width));
     prop_oneof![
         low..=high,
@@ -39,7 +39,7 @@ fn hostile(width: u32) -> impl Strategy<Value = i64> {
 }
 
 fn positive(width: u32) -> impl Strategy<Value = i64> {
-    hostile(width).prop_map(move |value| {
+    corner_cases(width).prop_map(move |value| {
         value.checked_abs().unwrap_or(i64::MAX).clamp(1, i64::MAX >> (64 - width))
     })
 }
@@ -65,7 +65,7 @@ proptest! {
 
     #[test]
     fn the_array_is_the_floor(
-        n in hostile(64), d in positive(64), shift in -20..=48_i32, bits in 1..=40_u32,
+        n in corner_cases(64), d in positive(64), shift in -20..=48_i32, bits in 1..=40_u32,
     ) {
         let (n, d) = (i128::from(n), i128::from(d));
         let expected = floor_ratio(n, d, shift, bits);
@@ -87,7 +87,7 @@ proptest! {
 
     #[test]
     fn narrow_direct_equals_array_and_floor(
-        n in hostile(32), d in positive(32), exponent in -40..=40_i32, range in 0..=11_u32,
+        n in corner_cases(32), d in positive(32), exponent in -40..=40_i32, range in 0..=11_u32,
     ) {
         check_narrow(n, d, exponent, range)?;
         let shift = exponent + 20;
@@ -100,7 +100,7 @@ proptest! {
 
     #[test]
     fn wide_direct_equals_array_and_floor(
-        n in hostile(64), d in positive(64), exponent in -36..=30_i32, range in 0..=23_u32,
+        n in corner_cases(64), d in positive(64), exponent in -36..=30_i32, range in 0..=23_u32,
     ) {
         check_wide(n, d, exponent, range)?;
         let shift = exponent + 24;

@@ -3,8 +3,8 @@
 
 mod support;
 
-#[path = "engines/hostile.rs"]
-mod hostile;
+#[path = "engines/corner_cases.rs"]
+mod corner_cases;
 #[path = "engines/rasters.rs"]
 mod rasters;
 #[path = "engines/sweeps.rs"]
@@ -32,7 +32,7 @@ struct Seen {
     surface: AtomicUsize,
     side: AtomicUsize,
     sky: AtomicUsize,
-    far: AtomicUsize,
+    out_of_range: AtomicUsize,
 }
 
 impl Seen {
@@ -40,7 +40,7 @@ impl Seen {
         self.surface.fetch_add(count(frame, Hit::Surface), Relaxed);
         self.side.fetch_add(count(frame, Hit::Side), Relaxed);
         self.sky.fetch_add(count(frame, Hit::Sky), Relaxed);
-        self.far.fetch_add(count(frame, Hit::Far), Relaxed);
+        self.out_of_range.fetch_add(count(frame, Hit::OutOfRange), Relaxed);
     }
 
     /// Most scenes were drawn, and every outcome was among their pixels.
@@ -50,7 +50,7 @@ impl Seen {
         assert!(self.refused.load(Relaxed) * 10 < scenes, "too many scenes are refused: {self:?}");
         assert!(self.narrow.load(Relaxed) * 2 > scenes, "too few narrow machines: {self:?}");
         assert!(self.surface.load(Relaxed) > 50 * scenes, "too few pixels hit: {self:?}");
-        for outcome in [&self.side, &self.sky, &self.far] {
+        for outcome in [&self.side, &self.sky, &self.out_of_range] {
             assert!(outcome.load(Relaxed) > scenes, "an outcome is missing: {self:?}");
         }
     }

@@ -2,6 +2,8 @@
 
 #[path = "height_files/ascii.rs"]
 mod ascii;
+#[path = "height_files/damaged.rs"]
+mod damaged;
 #[path = "height_files/forged.rs"]
 mod forged;
 #[path = "height_files/fuzz.rs"]
@@ -12,8 +14,6 @@ mod georeference;
 mod geotiff;
 #[path = "height_files/hgt.rs"]
 mod hgt;
-#[path = "height_files/hostile.rs"]
-mod hostile;
 #[path = "height_files/packed.rs"]
 mod packed;
 #[path = "height_files/real.rs"]

@@ -18,7 +18,7 @@ use terraline::study::error::{ErrorReport, Sample};
 
 const KERNELS: [(KernelShape, Deformation); 5] = [
     (KernelShape::Cosine, Deformation::None),
-    (KernelShape::Cosine, Deformation::Blend { weight_shift: 2 }),
+    (KernelShape::Cosine, Deformation::TowardHat { weight_shift: 2 }),
     (KernelShape::Hat, Deformation::None),
     (KernelShape::Cosine, Deformation::Stretch),
     (KernelShape::Parabola, Deformation::Stretch),

@@ -39,7 +39,7 @@ fn place() -> impl Strategy<Value = (i64, i64)> {
     (axis(COLUMNS as i64), axis(ROWS as i64))
 }
 
-/// Heights in scene units, from flat to the largest relief that a narrow word takes.
+/// Heights in scene units, from flat to the largest height range that a narrow word takes.
 fn heights() -> impl Strategy<Value = Vec<f32>> {
     let node =
         |most: i32| (0..=most, 0..16_i32).prop_map(|(y, part)| y as f32 + part as f32 / 16.0);
@@ -314,8 +314,8 @@ fn the_pruned_machine_fits_what_the_kernel_needs() {
             Deformation::Stretch => Form::Stretch,
             _ if kernel.shape == KernelShape::Hat => Form::Hat,
             Deformation::None => Form::Plain,
-            Deformation::Blend { weight_shift } if weight_shift >= 31 => Form::Hat,
-            Deformation::Blend { weight_shift } => Form::Blend(weight_shift),
+            Deformation::TowardHat { weight_shift } if weight_shift >= 31 => Form::Hat,
+            Deformation::TowardHat { weight_shift } => Form::TowardHat(weight_shift),
         };
         assert_eq!(form(kernel), expected, "{kernel:?}");
         let plan = Plan::new(&some_scene(kernel, WordSize::Narrow), None, false).expect("a plan");

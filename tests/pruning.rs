@@ -73,9 +73,9 @@ fn own_cases() -> Vec<Case> {
             left_out: vec![("kernel_rom", "hat"), square],
         },
         Case {
-            name: "hat kernel, blended",
+            name: "hat kernel, deformed",
             scene: changed(|scene| {
-                scene.kernel = kernel(KernelShape::Hat, Deformation::Blend { weight_shift: 1 });
+                scene.kernel = kernel(KernelShape::Hat, Deformation::TowardHat { weight_shift: 1 });
             }),
             left_out: vec![("kernel_rom", "hat"), square],
         },
@@ -83,7 +83,7 @@ fn own_cases() -> Vec<Case> {
             name: "weight shift beyond the width",
             scene: changed(|scene| {
                 scene.kernel =
-                    kernel(KernelShape::Parabola, Deformation::Blend { weight_shift: 64 });
+                    kernel(KernelShape::Parabola, Deformation::TowardHat { weight_shift: 64 });
             }),
             left_out: vec![("kernel_rom", "no bit"), square],
         },
@@ -91,7 +91,7 @@ fn own_cases() -> Vec<Case> {
             name: "weight shift of the width less one",
             scene: changed(|scene| {
                 scene.kernel =
-                    kernel(KernelShape::Exponential, Deformation::Blend { weight_shift: 31 });
+                    kernel(KernelShape::Exponential, Deformation::TowardHat { weight_shift: 31 });
                 scene.machine.words = WordSize::Narrow;
             }),
             left_out: vec![("kernel_rom", "no bit"), square],

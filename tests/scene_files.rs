@@ -7,7 +7,7 @@ use peak_alloc::PeakAlloc;
 use support::described;
 use terraline::scene::file::{Document, parse};
 use terraline::scene::{
-    Angles, Attitude, Extent, FormatRequest, Halvings, NoData, Overflow, Rounding, Scene,
+    Angles, Attitude, Bisection, Extent, FormatRequest, NoData, Overflow, Rounding, Scene,
     SceneError, Surface, Terrain, builtin, load,
 };
 use terraline::word::{Class, Register, Registers};
@@ -20,12 +20,12 @@ mod damage;
 mod fuzz;
 #[path = "scene_files/grids.rs"]
 mod grids;
-#[path = "scene_files/hostile.rs"]
-mod hostile;
 #[path = "scene_files/messages.rs"]
 mod messages;
 #[path = "scene_files/options.rs"]
 mod options;
+#[path = "scene_files/random_texts.rs"]
+mod random_texts;
 #[path = "scene_files/wild.rs"]
 mod wild;
 
@@ -140,7 +140,7 @@ fn keys_go_where_they_belong() {
     let terrain = terrain(&scene);
     assert_eq!((terrain.nodata, terrain.base_depth), (NoData::Sample(-32768.0), Some(4.0)));
     assert_eq!((terrain.offset, terrain.scale), (0.0, 1.0));
-    assert_eq!(scene.stepper.halvings, Halvings::Fixed(20));
+    assert_eq!(scene.stepper.halvings, Bisection::Fixed(20));
     assert_eq!((scene.light.direction, scene.color.ramp.len()), (DVec3::Y, 3));
     // In the order of the file, so that a register may refine its class.
     let coarse = FormatRequest {
@@ -149,12 +149,7 @@ fn keys_go_where_they_belong() {
         rounding: Rounding::Nearest,
         overflow: Overflow::Wrap,
     };
-    let fine = FormatRequest {
-        width: 48,
-        point: 30,
-        rounding: Rounding::NearestEven,
-        ..coarse
-    };
+    let fine = FormatRequest { width: 48, point: 30, rounding: Rounding::NearestEven, ..coarse };
     assert_eq!(
         scene.formats,
         [(Registers::Class(Class::View), coarse), (Registers::One(Register::GroundX), fine)]

@@ -201,12 +201,12 @@ fn buffers_survive_a_round_trip() {
     assert_eq!(fs::read(&path).unwrap(), bytes, "the same frame gives the same bytes");
 
     let mut npz = Npz::open(&path).unwrap();
-    assert_eq!(npz.names(), TABLE.each_ref().map(|entry| entry.name));
-    for (entry, scalars) in frame.arrays() {
-        let array = npz.array(entry.name).unwrap();
+    assert_eq!(npz.names(), TABLE.each_ref().map(|row| row.name));
+    for (row, scalars) in frame.arrays() {
+        let array = npz.array(row.name).unwrap();
         let mut shape = vec![101, 200];
-        shape.extend((entry.components > 1).then_some(entry.components));
-        assert_eq!(*array.header(), Header { dtype: entry.dtype, shape });
+        shape.extend((row.components > 1).then_some(row.components));
+        assert_eq!(*array.header(), Header { dtype: row.dtype, shape });
         let read = array.read_all().unwrap();
         let given: Vec<f64> = match scalars {
             Scalars::F8(values) => values.to_vec(),
@@ -215,7 +215,7 @@ fn buffers_survive_a_round_trip() {
             Scalars::Hit(values) => values.iter().map(|&hit| f64::from(hit as u8)).collect(),
         };
         assert_eq!(read.len(), given.len());
-        assert!(read.iter().zip(given).all(|(r, g)| r.to_bits() == g.to_bits()), "{}", entry.name);
+        assert!(read.iter().zip(given).all(|(r, g)| r.to_bits() == g.to_bits()), "{}", row.name);
     }
     assert!(npz.array("depth").is_err());
     assert_eq!(entries(folder.path()), [path]);

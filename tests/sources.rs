@@ -366,7 +366,7 @@ fn wrong_citations_are_found() {
 fn equations_of_registers_exist() {
     let equations = equations(&read("docs/mathematics.md"));
     for &register in Register::ALL {
-        for number in table::entry(register).equations.split(", ") {
+        for number in table::row(register).equations.split(", ") {
             let number = number.parse().expect("a number");
             assert!(equations.contains_key(&number), "equation {number} of {register}");
         }

@@ -113,7 +113,7 @@ fn the_window_shows_the_frames_of_all_engines() {
 }
 
 #[test]
-fn the_divider_parts_two_pictures() {
+fn a_split_parts_two_pictures() {
     let (width, size) = (96, (96, 64));
     let scene = scene("flight", &[]);
     // The cursor is in the way of nothing: panels are off.
@@ -123,7 +123,7 @@ fn the_divider_parts_two_pictures() {
         [Picture::Normal, Picture::Steps].map(|picture| picture.of(&drawn).unwrap().pixels);
     for (index, pixel) in canvas.bytes().into_iter().enumerate() {
         let (x, y) = (index % width, index / width);
-        // Rows of the grip, columns of the divider.
+        // Rows of the grip, columns of the split.
         if (22..43).contains(&y) || (22..27).contains(&x) {
             continue;
         }

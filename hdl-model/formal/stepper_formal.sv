@@ -14,7 +14,7 @@
 //
 // That every node of the samples' surfaces is among those of the bound is shown in
 // pyramid_axis_formal.sv. Assumed are: coefficients do not change, k <= 6, levels up to 20 (the plan);
-// answers of a group come in order, the last one with its tag (the interpolator's contract); in PART 1
+// answers of a burst come in order, the last one with its tag (the interpolator's contract); in PART 1
 // that the ray's height does not wrap (equation 32).
 module stepper_formal #(
     parameter int WIDE = 0,
@@ -62,14 +62,14 @@ module stepper_formal #(
   localparam int W = WIDE == 1 ? terraline_pkg::WIDE_WIDTH : terraline_pkg::NARROW_WIDTH;
   localparam int POINT = WIDE == 1 ? terraline_pkg::WIDE_POINT : terraline_pkg::NARROW_POINT;
   localparam int CELL = WIDE == 1 ? 26 : 12;
-  localparam logic [3:0] SCALE = 4'd1, STEP = 4'd2, TRIAL = 4'd4, BOUND = 4'd5,
+  localparam logic [3:0] SCALE = 4'd1, STEP = 4'd2, SKIP = 4'd4, BOUND = 4'd5,
                          SAMPLE = 4'd6;
   localparam logic [25:0] ONE = 26'd1;
 
   logic jumps;  // a jump is tried
   logic [5:0] jump_places;
   logic [26:0] jump_length;
-  assign jumps = state == TRIAL || state == BOUND;
+  assign jumps = state == SKIP || state == BOUND;
   assign jump_places = {1'b0, level} + {3'b0, fineness};
   assign jump_length = 27'd1 << jump_places;
 
@@ -96,8 +96,8 @@ module stepper_formal #(
       logic [25:0] last_before;
       logic skipping_before, ends_before;
       logic [CELL-1:0] columns_before, rows_before;
-      // Samples of the group in work, and how many of them are answered.
-      logic [6:0] group_size, group_done;
+      // Samples of the burst in work, and how many of them are answered.
+      logic [6:0] burst_size, burst_done;
       logic [3:0] state_before;
       initial first = 1'b1;
       always_ff @(posedge clock) begin
@@ -139,17 +139,17 @@ module stepper_formal #(
           .place(left_leading)
       );
 
-      // A group of samples starts when none is in work: in its first cycle nothing is answered.
+      // A burst of samples starts when none is in work: in its first cycle nothing is answered.
       logic fresh;
       always_ff @(posedge clock) begin
         state_before <= state;
         fresh <= state != SAMPLE || (answered && tag_last);
-        if (fresh) group_size <= to_issue;
-        group_done <= fresh ? {6'b0, answered} : group_done + {6'b0, answered};
+        if (fresh) burst_size <= to_issue;
+        burst_done <= fresh ? {6'b0, answered} : burst_done + {6'b0, answered};
       end
       logic [6:0] size, done;
-      assign size = fresh ? to_issue : group_size;
-      assign done = fresh ? '0 : group_done;
+      assign size = fresh ? to_issue : burst_size;
+      assign done = fresh ? '0 : burst_done;
 
       logic none_x, none_z;
       logic [CELL-1:0] stored_x, stored_z;
@@ -191,7 +191,7 @@ module stepper_formal #(
             assert (done < size && size <= 7'd64);
             assert ({20'b0, size} <= {1'b0, remaining} + {20'b0, done});
           end
-          if (state == TRIAL) assert (bound_column == stored_x && bound_row == stored_z);
+          if (state == SKIP) assert (bound_column == stored_x && bound_row == stored_z);
           if (state == BOUND) begin
             assert (ahead_right);
             assert ({1'b0, remaining_ahead} + jump_length == {1'b0, remaining});
@@ -222,12 +222,12 @@ module stepper_formal #(
   endgenerate
 
   // Cases that must be possible.
-  (* keep *) logic cover_far, cover_jump, cover_level, cover_group;
+  (* keep *) logic cover_far, cover_jump, cover_level, cover_burst;
   assign cover_far = state == BOUND && level == 5'd9 && fineness == 3'd5;
   assign cover_jump = state == BOUND && bound_valid && clear && !none && step_y < 0
       && jump_length == 27'(JUMP);
   assign cover_level = jumps && level == 5'd20;
-  assign cover_group = state == SAMPLE && answered && to_issue == 7'd3;
+  assign cover_burst = state == SAMPLE && answered && to_issue == 7'd3;
 endmodule
 
 bind stepper stepper_formal #(

@@ -2,7 +2,7 @@
 // reserved word, so the module has the plural.
 //
 // The parity of the square chooses between two colours, mean + swing and mean - swing; the swing is
-// multiplied with the contrast, which the denominator gives. Sky and far have constant colours. It
+// multiplied with the contrast, which the denominator gives. Sky and out of range have constant colours. It
 // stands where height maps have the shader, with the shader's handshake and timing.
 //
 // Cycles: one item per cycle. An item taken in cycle t is at the output in cycle t + 13 (L = 13:
@@ -39,35 +39,35 @@ module checkers #(
     localparam int W = WIDE != 0 ? terraline_pkg::WIDE_WIDTH : terraline_pkg::NARROW_WIDTH
 ) (
     input logic clock,
-    input logic reset, // no items are held
+    input logic reset,                              // no items are held
 
     // Coefficients.
-    input logic        [ 23:0] sky_color,                // colours, red in the low byte: nothing is met
-    input logic        [ 23:0] far_color,                // out of range
-    input logic signed [W-1:0] mean_red,           // mean of the two colours, tone words
+    input logic        [ 23:0] sky_color,           // colours, red in the low byte: nothing is met
+    input logic        [ 23:0] out_of_range_color,  // out of range
+    input logic signed [W-1:0] mean_red,            // mean of the two colours, tone words
     input logic signed [W-1:0] mean_green,
     input logic signed [W-1:0] mean_blue,
-    input logic signed [W-1:0] swing_red,          // half their difference, tone words
+    input logic signed [W-1:0] swing_red,           // half their difference, tone words
     input logic signed [W-1:0] swing_green,
     input logic signed [W-1:0] swing_blue,
-    input logic signed [  7:0] contrast_exponent,  // power of two on denominators; beyond 8 bits, its limit
-    input logic signed [W-1:0] contrast_gain,      // contrast plus one, per shifted denominator
-    input logic signed [W-1:0] full_from,          // view word: contrast is full from here on
-    input logic                full_from_fitted,   // without it no pixel reaches full contrast
+    input logic signed [  7:0] contrast_exponent,   // power of two on denominators; beyond 8 bits, its limit
+    input logic signed [W-1:0] contrast_gain,       // contrast plus one, per shifted denominator
+    input logic signed [W-1:0] full_from,           // view word: contrast is full from here on
+    input logic                full_from_fitted,    // without it no pixel reaches full contrast
 
     // Items.
     input  logic                  in_valid,
     output logic                  in_ready,
-    input  logic        [    1:0] in_entry,        // 0 met, 1 sky, 2 far
-    input  logic signed [  W-1:0] in_ground_x,     // place in squares, ground words
+    input  logic        [    1:0] in_entry,         // 0 met, 1 sky, 2 out of range
+    input  logic signed [  W-1:0] in_ground_x,      // place in squares, ground words
     input  logic signed [  W-1:0] in_ground_z,
-    input  logic signed [  W-1:0] in_denominator,  // view word
-    input  logic        [TAG-1:0] in_tag,          // goes along
+    input  logic signed [  W-1:0] in_denominator,   // view word
+    input  logic        [TAG-1:0] in_tag,           // goes along
     output logic                  out_valid,
     input  logic                  out_ready,
-    output logic        [   23:0] out_color,       // sRGB bytes, red in the low byte
-    output logic        [    1:0] out_hit,         // 0 sky, 1 surface, 3 far
-    output logic        [TAG-1:0] out_tag          // as taken
+    output logic        [   23:0] out_color,        // sRGB bytes, red in the low byte
+    output logic        [    1:0] out_hit,          // 0 sky, 1 surface, 3 out of range
+    output logic        [TAG-1:0] out_tag           // as taken
 );
   localparam int F = WIDE != 0 ? terraline_pkg::WIDE_POINT : terraline_pkg::NARROW_POINT;
   localparam int VIEW = WIDE != 0 ? terraline_pkg::WIDE_VIEW_POINT : terraline_pkg::NARROW_VIEW_POINT;
@@ -211,7 +211,7 @@ module checkers #(
     case (hit_11)
       2'd0: pixel_12 <= sky_color;
       2'd1: pixel_12 <= color_11;
-      default: pixel_12 <= far_color;
+      default: pixel_12 <= out_of_range_color;
     endcase
   end
 

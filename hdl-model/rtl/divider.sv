@@ -6,8 +6,8 @@
 // taken in cycle t goes on in cycle t + bits + 3. SERIAL = 1: one stage for all bits, the next item
 // is taken after bits + 3 cycles.
 //
-// Never divides by zero or by a negative number, never wraps a quotient: what is out of range is
-// `far`.
+// Never divides by zero or by a negative number, never wraps a quotient: one that does not fit
+// is out of range.
 module divider #(
     parameter int WIDE = 0,    // words of 64 bits, not 32
     parameter int SERIAL = 0,  // one stage for all quotient bits
@@ -30,7 +30,7 @@ module divider #(
     // Items to the next unit
     output logic                                    out_valid,       // an item is there
     input  logic                                    out_ready,       // it is taken at this edge
-    output logic        [                      1:0] out_entry,       // 0 met, 1 sky, 2 far
+    output logic        [                      1:0] out_entry,       // 0 met, 1 sky, 2 out of range
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] out_ground_x,    // the point, valid where met
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] out_ground_z,    // the same, z
     output logic        [                 SIDE-1:0] out_side         // came along
@@ -43,7 +43,7 @@ module divider #(
                                      : STAGES + terraline_pkg::DIVIDER_ENDS + 1;
   // Set-up shifts by at most W + bits - 2: further numerators are out of range.
   localparam int ALIGNED = 2 * W + STAGES - 2;
-  localparam int MET = 0, SKY = 1, FAR = 2;
+  localparam int MET = 0, SKY = 1, OUT_OF_RANGE = 2;
 
   logic enter, leave, room;
   logic done;
@@ -98,7 +98,7 @@ module divider #(
   localparam int LOW = W + STAGES - 1;
   logic signed [LOW:0] bias, biased_x, biased_z, beyond_x, beyond_z;
   logic signed [ALIGNED-LOW:0] above_x, above_z;
-  logic sky, far_x, far_z;
+  logic sky, out_x, out_z;
   logic [1:0] entry;
 
   assign bias = (LOW + 1)'(denominator) <<< (STAGES - 1);
@@ -109,9 +109,9 @@ module divider #(
   assign above_x = aligned_x[ALIGNED-1:LOW-1];
   assign above_z = aligned_z[ALIGNED-1:LOW-1];
   assign sky = denominator <= 0;
-  assign far_x = (above_x != '0 && above_x != '1) || biased_x < 0 || beyond_x >= 0;
-  assign far_z = (above_z != '0 && above_z != '1) || biased_z < 0 || beyond_z >= 0;
-  assign entry = sky ? 2'(SKY) : far_x || far_z ? 2'(FAR) : 2'(MET);
+  assign out_x = (above_x != '0 && above_x != '1) || biased_x < 0 || beyond_x >= 0;
+  assign out_z = (above_z != '0 && above_z != '1) || biased_z < 0 || beyond_z >= 0;
+  assign entry = sky ? 2'(SKY) : out_x || out_z ? 2'(OUT_OF_RANGE) : 2'(MET);
 
   if (SERIAL == 0) begin : pipelined
     divider_array #(

@@ -25,30 +25,30 @@ module interpolator #(
     input logic reset,
 
     // Coefficients, constant while anything is under way.
-    input logic [                      1:0] form,           // 2×2 nodes: 0 plain, 1 blend, 2 hat
-    input logic [                      5:0] blend_shift,    // of the kernel's difference to the hat
-    input logic [                      4:0] table_log2,     // entries of the kernel, 1 to TABLE_LOG2
-    input logic [ (WIDE != 0 ? 26 : 12)-1:0] map_columns,    // nodes in x
-    input logic [ (WIDE != 0 ? 26 : 12)-1:0] map_rows,       // nodes in z
-    input logic                             map_ends,       // the map ends at its edge, else its edge goes on
-    input logic                             void_bits,      // nodes may have no data
-    input logic                             slope_scaled,   // slopes are scaled
-    input logic [(WIDE != 0 ? 64 : 32)-1:0] slope_scale_x,  // height unit over cell size, weight
+    input logic [                      1:0] form,                // 2×2 nodes: 0 plain, 1 toward the hat, 2 hat
+    input logic [                      5:0] deformation_shift,   // of the kernel's difference to the hat
+    input logic [                      4:0] table_log2,          // entries of the kernel, 1 to TABLE_LOG2
+    input logic [ (WIDE != 0 ? 26 : 12)-1:0] map_columns,        // nodes in x
+    input logic [ (WIDE != 0 ? 26 : 12)-1:0] map_rows,           // nodes in z
+    input logic                             map_ends,            // the map ends at its edge, else its edge goes on
+    input logic                             void_bits,           // nodes may have no data
+    input logic                             slope_scaled,        // slopes are scaled
+    input logic [(WIDE != 0 ? 64 : 32)-1:0] slope_scale_x,       // height unit over cell size, weight
     input logic [(WIDE != 0 ? 64 : 32)-1:0] slope_scale_z,
 
     // Kernel tables, loaded before the first token.
-    input logic                             load_weight,   // put load_data into the weights
-    input logic                             load_slope,    // put load_data into the slopes
-    input logic [                     16:0] load_address,  // entry, 0 to 2^table_log2
-    input logic [(WIDE != 0 ? 64 : 32)-1:0] load_data,     // weight's format
+    input logic                             load_weight,         // put load_data into the weights
+    input logic                             load_slope,          // put load_data into the slopes
+    input logic [                     16:0] load_address,        // entry, 0 to 2^table_log2
+    input logic [(WIDE != 0 ? 64 : 32)-1:0] load_data,           // weight's format
 
     // Request.
-    input  logic                             request_valid,  // a place is there
-    input  logic                             request_first,  // first cycle of its token
-    output logic                             request_last,   // this read is the token's last one
-    input  logic [(WIDE != 0 ? 64 : 32)-1:0] request_x,      // place, cells
+    input  logic                             request_valid,      // a place is there
+    input  logic                             request_first,      // first cycle of its token
+    output logic                             request_last,       // this read is the token's last one
+    input  logic [(WIDE != 0 ? 64 : 32)-1:0] request_x,          // place, cells
     input  logic [(WIDE != 0 ? 64 : 32)-1:0] request_z,
-    input  logic [                  TAG-1:0] request_tag,    // comes back with the answer
+    input  logic [                  TAG-1:0] request_tag,        // comes back with the answer
 
     // Height memory: four banks.
     output logic                                   read,         // read the addresses
@@ -60,10 +60,10 @@ module interpolator #(
 
     // Answer.
     output logic                             answer_valid,
-    output logic                             answer_exists,   // the surface exists at the place
-    output logic [(WIDE != 0 ? 64 : 32)-1:0] answer_surface,  // its height
-    output logic [(WIDE != 0 ? 64 : 32)-1:0] answer_slope_x,  // −∂y/∂x; zero where SLOPES is 0
-    output logic [(WIDE != 0 ? 64 : 32)-1:0] answer_slope_z,  // −∂y/∂z
+    output logic                             answer_exists,      // the surface exists at the place
+    output logic [(WIDE != 0 ? 64 : 32)-1:0] answer_surface,     // its height
+    output logic [(WIDE != 0 ? 64 : 32)-1:0] answer_slope_x,     // −∂y/∂x; zero where SLOPES is 0
+    output logic [(WIDE != 0 ? 64 : 32)-1:0] answer_slope_z,     // −∂y/∂z
     output logic [                  TAG-1:0] answer_tag
 );
   localparam int W = WIDE != 0 ? terraline_pkg::WIDE_WIDTH : terraline_pkg::NARROW_WIDTH;
@@ -173,30 +173,30 @@ module interpolator #(
         fall_x   <= aside_1[TAG] ? kernel_slope_x : -kernel_slope_x;
         fall_z   <= aside_1[TAG] ? kernel_slope_z : -kernel_slope_z;
       end
-    end else begin : gen_blend
+    end else begin : gen_hat_weight
       logic [POINT-1:0] hat_x, hat_z;
       always_ff @(posedge clock) begin
         hat_x <= fraction_x;
         hat_z <= fraction_z;
       end
-      blend #(
+      hat_weight #(
           .POINT(POINT)
-      ) blend_x (
+      ) hat_weight_x (
           .clock(clock),
           .form(form),
-          .shift(blend_shift),
+          .shift(deformation_shift),
           .fraction(hat_x),
           .kernel(kernel_x),
           .slope(kernel_slope_x),
           .weight(weight_x),
           .fall(fall_x)
       );
-      blend #(
+      hat_weight #(
           .POINT(POINT)
-      ) blend_z (
+      ) hat_weight_z (
           .clock(clock),
           .form(form),
-          .shift(blend_shift),
+          .shift(deformation_shift),
           .fraction(hat_z),
           .kernel(kernel_z),
           .slope(kernel_slope_z),

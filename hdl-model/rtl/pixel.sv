@@ -10,13 +10,13 @@ module pixel #(
     localparam int F = WIDE != 0 ? terraline_pkg::WIDE_POINT : terraline_pkg::NARROW_POINT
 ) (
     // Coefficients.
-    input  logic [           23:0] sky_color,  // colours, red in the low byte: nothing is met
-    input  logic [           23:0] far_color,  // out of range
-    input  logic [           23:0] side_color, // the side of the map
+    input  logic [           23:0] sky_color,           // colours, red in the low byte: nothing is met
+    input  logic [           23:0] out_of_range_color,  // out of range
+    input  logic [           23:0] side_color,          // the side of the map
     // Pixels.
-    input  logic [            1:0] hit,        // 0 sky, 1 surface, 2 side, 3 out of range
-    input  logic [ 3*(2*F+11)-1:0] lit,        // channels, red lowest, 2F bits behind the point
-    output logic [           23:0] color       // sRGB bytes, red in the low byte
+    input  logic [            1:0] hit,                 // 0 sky, 1 surface, 2 side, 3 out of range
+    input  logic [ 3*(2*F+11)-1:0] lit,                 // channels, red lowest, 2F bits behind the point
+    output logic [           23:0] color                // sRGB bytes, red in the low byte
 );
   // Half of a word's last bit and half a level.
   localparam logic [2*F-1:0] HALVES = (2 * F)'(1) << (2 * F - 1) | (2 * F)'(1) << (F - 1);
@@ -35,7 +35,7 @@ module pixel #(
       2'd0: color = sky_color;
       2'd1: color = nearest;
       2'd2: color = side_color;
-      default: color = far_color;
+      default: color = out_of_range_color;
     endcase
   end
 endmodule

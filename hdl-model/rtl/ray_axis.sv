@@ -3,7 +3,7 @@
 //
 // `place` is the last place known to be clear. `follow` is the one whose answer comes next: a step further
 // than `place`, or while a hit is halved the middle between `place` and it. `issue` is the next sample of a
-// group that streams through the interpolation. What decides late in a cycle (`moves`, `hits`) chooses
+// burst that streams through the interpolation. What decides late in a cycle (`moves`, `hits`) chooses
 // between sums that are made beside it.
 //
 // Never wraps a position (the plan proves their range), never multiplies.

@@ -40,21 +40,21 @@ module registers #(
     output logic [5:0] bisection_cap,  // and at most this many
     output logic skipping,  // 1 where the pyramid is fitted
     output logic [4:0] pyramid_top,  // highest level of the pyramid
-    output logic beyond_sky,  // 1 where an entry out of range is sky, else it is far
+    output logic beyond_sky,  // 1 where an entry out of range is sky, else it stays out of range
     output logic [(WIDE == 1 ? 26 : 12)-1:0] map_columns,  // nodes of the map in x
     output logic [(WIDE == 1 ? 26 : 12)-1:0] map_rows,  // nodes of the map in z
     output logic [1:0] map_edge,  // beyond the edge: 0 the map ends, 1 its edge nodes go on, 2 it repeats
     output logic sides,  // 1 where the map has sides, drawn down to the base
     output logic void_bits,  // 1 where nodes may have no data
-    output logic [1:0] form,  // weights: 0 the kernel's, 1 blended with the hat's, 2 the hat's, 3 over 3x3 nodes
-    output logic [5:0] blend_shift,  // places that a blend shifts the difference right
+    output logic [1:0] form,  // weights: 0 the kernel's, 1 toward the hat's, 2 the hat's, 3 over 3x3 nodes
+    output logic [5:0] deformation_shift,  // places that the difference to the hat is shifted right
     output logic [4:0] kernel_log2,  // the kernel tables have 2^log2 entries a cell, and one
     output logic slope_scaled,  // 1 where slopes have factors
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] slope_scale_x,  // factor on a slope, x: height unit over cell
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] slope_scale_z,  // the same, z
     output logic [6:0] memory_latency,  // M: cycles from address to data
     output logic [23:0] sky_color,  // colour where nothing is met
-    output logic [23:0] far_color,  // colour out of range
+    output logic [23:0] out_of_range_color,  // colour out of range
     output logic [23:0] side_color,  // colour of the map's side
     output logic lit,  // 1 where the light is fitted
     output logic signed [(WIDE == 1 ? 64 : 32)-1:0] light_x,  // direction towards the light, times the diffuse share, x
@@ -116,14 +116,14 @@ module registers #(
         16'(terraline_pkg::ADDRESS_SIDES): sides <= load_data[0];
         16'(terraline_pkg::ADDRESS_VOID_BITS): void_bits <= load_data[0];
         16'(terraline_pkg::ADDRESS_FORM): form <= load_data[1:0];
-        16'(terraline_pkg::ADDRESS_BLEND_SHIFT): blend_shift <= load_data[5:0];
+        16'(terraline_pkg::ADDRESS_DEFORMATION_SHIFT): deformation_shift <= load_data[5:0];
         16'(terraline_pkg::ADDRESS_KERNEL_LOG2): kernel_log2 <= load_data[4:0];
         16'(terraline_pkg::ADDRESS_SLOPE_SCALED): slope_scaled <= load_data[0];
         16'(terraline_pkg::ADDRESS_SLOPE_SCALE_X): slope_scale_x <= load_data;
         16'(terraline_pkg::ADDRESS_SLOPE_SCALE_Z): slope_scale_z <= load_data;
         16'(terraline_pkg::ADDRESS_MEMORY_LATENCY): memory_latency <= load_data[6:0];
         16'(terraline_pkg::ADDRESS_SKY_COLOR): sky_color <= load_data[23:0];
-        16'(terraline_pkg::ADDRESS_FAR_COLOR): far_color <= load_data[23:0];
+        16'(terraline_pkg::ADDRESS_OUT_OF_RANGE_COLOR): out_of_range_color <= load_data[23:0];
         16'(terraline_pkg::ADDRESS_SIDE_COLOR): side_color <= load_data[23:0];
         16'(terraline_pkg::ADDRESS_LIT): lit <= load_data[0];
         16'(terraline_pkg::ADDRESS_LIGHT_X): light_x <= load_data;

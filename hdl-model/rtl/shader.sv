@@ -17,40 +17,40 @@ module shader #(
     localparam int W = WIDE != 0 ? terraline_pkg::WIDE_WIDTH : terraline_pkg::NARROW_WIDTH
 ) (
     input logic clock,
-    input logic reset, // no items are held
+    input logic reset,                              // no items are held
 
     // Coefficients.
-    input logic        [ 23:0] sky_color,            // colours, red in the low byte: nothing is met
-    input logic        [ 23:0] far_color,            // out of range
-    input logic        [ 23:0] side_color,           // the side of the map
-    input logic                lit,            // the light is fitted; without it shade is one
-    input logic signed [W-1:0] toward_x,       // direction to the light times diffuse share, x
-    input logic signed [W-1:0] toward_y,       // y
-    input logic signed [W-1:0] toward_z,       // z
-    input logic signed [W-1:0] ambient,        // ambient share
-    input logic signed [  7:0] ramp_exponent,  // power of two on heights; beyond 8 bits, its limit
-    input logic signed [W-1:0] ramp_gain,      // segments per shifted height
-    input logic        [  3:0] ramp_last,      // segments minus one
+    input logic        [ 23:0] sky_color,           // colours, red in the low byte: nothing is met
+    input logic        [ 23:0] out_of_range_color,  // out of range
+    input logic        [ 23:0] side_color,          // the side of the map
+    input logic                lit,                 // the light is fitted; without it shade is one
+    input logic signed [W-1:0] toward_x,            // direction to the light times diffuse share, x
+    input logic signed [W-1:0] toward_y,            // y
+    input logic signed [W-1:0] toward_z,            // z
+    input logic signed [W-1:0] ambient,             // ambient share
+    input logic signed [  7:0] ramp_exponent,       // power of two on heights; beyond 8 bits, its limit
+    input logic signed [W-1:0] ramp_gain,           // segments per shifted height
+    input logic        [  3:0] ramp_last,           // segments minus one
 
     // Tables.
-    input logic         load_rsqrt,    // write `load_data` to the reciprocal square roots
-    input logic         load_ramp,     // write `load_data` to the ramp
-    input logic [ 15:0] load_address,  // entry; of the ramp segment*8 + channel*2 + (0 start, 1 rise)
-    input logic [W-1:0] load_data,     // tone word
+    input logic         load_rsqrt,                 // write `load_data` to the reciprocal square roots
+    input logic         load_ramp,                  // write `load_data` to the ramp
+    input logic [ 15:0] load_address,               // entry; of the ramp segment*8 + channel*2 + (0 start, 1 rise)
+    input logic [W-1:0] load_data,                  // tone word
 
     // Items.
     input  logic                  in_valid,
     output logic                  in_ready,
-    input  logic        [    1:0] in_hit,      // 0 sky, 1 surface, 2 side, 3 out of range
-    input  logic signed [  W-1:0] in_surface,  // height above the lowest node
-    input  logic signed [  W-1:0] in_slope_x,  // normal, x; its vertical component is one
-    input  logic signed [  W-1:0] in_slope_z,  // normal, z
-    input  logic        [TAG-1:0] in_tag,      // goes along
+    input  logic        [    1:0] in_hit,           // 0 sky, 1 surface, 2 side, 3 out of range
+    input  logic signed [  W-1:0] in_surface,       // height above the lowest node
+    input  logic signed [  W-1:0] in_slope_x,       // normal, x; its vertical component is one
+    input  logic signed [  W-1:0] in_slope_z,       // normal, z
+    input  logic        [TAG-1:0] in_tag,           // goes along
     output logic                  out_valid,
     input  logic                  out_ready,
-    output logic        [   23:0] out_color,   // sRGB bytes, red in the low byte
-    output logic        [    1:0] out_hit,     // as taken
-    output logic        [TAG-1:0] out_tag      // as taken
+    output logic        [   23:0] out_color,        // sRGB bytes, red in the low byte
+    output logic        [    1:0] out_hit,          // as taken
+    output logic        [TAG-1:0] out_tag           // as taken
 );
   localparam int F = WIDE != 0 ? terraline_pkg::WIDE_POINT : terraline_pkg::NARROW_POINT;
   localparam int STAGES = 12;
@@ -118,7 +118,7 @@ module shader #(
       .WIDE(WIDE)
   ) pixel (
       .sky_color(sky_color),
-      .far_color(far_color),
+      .out_of_range_color(out_of_range_color),
       .side_color(side_color),
       .hit(along[STAGES][TAG+:2]),
       .lit(lit_color),

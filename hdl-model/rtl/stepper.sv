@@ -1,10 +1,10 @@
 // The ray stepper: the first sample of a ray under the surface (docs/units/stepper.md).
 //
 // One ray at a time, as a state machine; its work on a ray takes
-// 4 + trials (1 + M) + samples R + groups (N + 5) + halvings (R + N + 5) + hits 2 cycles with
+// 4 + skip tests (1 + M) + samples R + bursts (N + 5) + bisection steps (R + N + 5) + hits 2 cycles with
 // N = max(M, 2), on maps with holes 2 R + N + 5 more per hit (docs/cycles.md). Here is what happens when.
 // The step is made by `ray_setup`, places are in `ray_walk`, the count of samples and what follows in
-// `walk_plan`; `skip_test` and `sample_burst` ask, `halvings` counts the bisection steps behind a hit, and
+// `walk_plan`; `skip_test` and `sample_burst` ask, `bisection` counts the bisection steps behind a hit, and
 // `walk_end` says what comes of it.
 //
 // Never wraps a position (the plan proves their range), never passes a sample that might hit, never
@@ -13,61 +13,61 @@ module stepper #(
     parameter int WIDE = 0  // words of 64 bits, not 32
 ) (
     input  logic                                    clock,
-    input  logic                                    reset,           // forgets all rays
+    input  logic                                    reset,            // forgets all rays
     // Coefficients
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_x,           // the eye, x in cells
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_y,           // y in height units
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_z,           // z in cells
-    input  logic                                    from_eye,        // rays start at the eye
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] highest,         // the highest node
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] base,            // base of the block under the map
-    input  logic        [                      2:0] fineness,        // k: steps of at most 2^-k cells
-    input  logic        [                     25:0] last,            // index of the last sample
-    input  logic                                    halvings_fixed,  // always halvings_cap halvings
-    input  logic signed [                      7:0] halvings_bias,   // halvings at distance one
-    input  logic        [                      5:0] halvings_cap,    // most halvings
-    input  logic                                    skipping,        // the pyramid is fitted
-    input  logic        [                      4:0] pyramid_top,     // its highest level
-    input  logic                                    beyond_sky,      // out of range is sky
-    input  logic        [(WIDE == 1 ? 26 : 12)-1:0] map_columns,     // nodes in x
-    input  logic        [(WIDE == 1 ? 26 : 12)-1:0] map_rows,        // nodes in z
-    input  logic                                    map_ends,        // the map ends at its edge
-    input  logic                                    sides,           // the map has sides
-    input  logic                                    void_bits,       // nodes may have no data
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_x,            // the eye, x in cells
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_y,            // y in height units
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] eye_z,            // z in cells
+    input  logic                                    from_eye,         // rays start at the eye
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] highest,          // the highest node
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] base,             // base of the block under the map
+    input  logic        [                      2:0] fineness,         // k: steps of at most 2^-k cells
+    input  logic        [                     25:0] last,             // index of the last sample
+    input  logic                                    bisection_fixed,  // always bisection_cap bisection steps
+    input  logic signed [                      7:0] bisection_bias,   // bisection steps at distance one
+    input  logic        [                      5:0] bisection_cap,    // most bisection steps
+    input  logic                                    skipping,         // the pyramid is fitted
+    input  logic        [                      4:0] pyramid_top,      // its highest level
+    input  logic                                    beyond_sky,       // out of range is sky
+    input  logic        [(WIDE == 1 ? 26 : 12)-1:0] map_columns,      // nodes in x
+    input  logic        [(WIDE == 1 ? 26 : 12)-1:0] map_rows,         // nodes in z
+    input  logic                                    map_ends,         // the map ends at its edge
+    input  logic                                    sides,            // the map has sides
+    input  logic                                    void_bits,        // nodes may have no data
     // Items from the divider, or from the projector where rays start at the eye
-    input  logic                                    in_valid,        // an item is there
-    output logic                                    in_ready,        // it is taken at this edge
-    input  logic        [                      1:0] in_entry,        // 0 met, 1 sky, 2 out of range
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_x,       // view vector, x
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_y,       // y
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_z,       // z
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_ground_x,     // where the ray enters, x
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_ground_z,     // z
+    input  logic                                    in_valid,         // an item is there
+    output logic                                    in_ready,         // it is taken at this edge
+    input  logic        [                      1:0] in_entry,         // 0 met, 1 sky, 2 out of range
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_x,        // view vector, x
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_y,        // y
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_view_z,        // z
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_ground_x,      // where the ray enters, x
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] in_ground_z,      // z
     // Memory of the pyramid's bounds
-    output logic                                    bound_read,      // an address is there
-    output logic        [                      4:0] bound_level,     // level
-    output logic        [(WIDE == 1 ? 26 : 12)-1:0] bound_column,    // stored bound, x
-    output logic        [(WIDE == 1 ? 26 : 12)-1:0] bound_row,       // z
-    input  logic                                    bound_valid,     // M cycles later: the bound is there
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] bound,           // height units
+    output logic                                    bound_read,       // an address is there
+    output logic        [                      4:0] bound_level,      // level
+    output logic        [(WIDE == 1 ? 26 : 12)-1:0] bound_column,     // stored bound, x
+    output logic        [(WIDE == 1 ? 26 : 12)-1:0] bound_row,        // z
+    input  logic                                    bound_valid,      // M cycles later: the bound is there
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] bound,            // height units
     // Samples to the interpolation, and its answers
-    output logic                                    sample_valid,    // a sample is there
-    output logic                                    sample_first,    // in its first cycle
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] sample_x,        // place, x
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] sample_z,        // z
-    output logic        [                      2:0] sample_tag,      // goes along
-    input  logic                                    sample_last,     // in its last cycle
-    input  logic                                    answer_valid,    // an answer is there
-    input  logic                                    answer_exists,   // there is a surface at the place
-    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] answer_surface,  // its height
-    input  logic        [                      2:0] answer_tag,      // came along
+    output logic                                    sample_valid,     // a sample is there
+    output logic                                    sample_first,     // in its first cycle
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] sample_x,         // place, x
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] sample_z,         // z
+    output logic        [                      2:0] sample_tag,       // goes along
+    input  logic                                    sample_last,      // in its last cycle
+    input  logic                                    answer_valid,     // an answer is there
+    input  logic                                    answer_exists,    // there is a surface at the place
+    input  logic signed [(WIDE == 1 ? 64 : 32)-1:0] answer_surface,   // its height
+    input  logic        [                      2:0] answer_tag,       // came along
     // Items to the interpolator
-    output logic                                    out_valid,       // an item is there
-    input  logic                                    out_ready,       // it is taken at this edge
-    output logic        [                      1:0] out_hit,         // 0 sky, 1 surface, 2 side, 3 out of range
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] out_ground_x,    // place of the hit, x
-    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] out_ground_z,    // z
-    output logic        [                     25:0] out_steps        // index of the sample that hit
+    output logic                                    out_valid,        // an item is there
+    input  logic                                    out_ready,        // it is taken at this edge
+    output logic        [                      1:0] out_hit,          // 0 sky, 1 surface, 2 side, 3 out of range
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] out_ground_x,     // place of the hit, x
+    output logic signed [(WIDE == 1 ? 64 : 32)-1:0] out_ground_z,     // z
+    output logic        [                     25:0] out_steps         // index of the sample that hit
 );
   localparam int W = WIDE == 1 ? terraline_pkg::WIDE_WIDTH : terraline_pkg::NARROW_WIDTH;
   localparam int POINT = WIDE == 1 ? terraline_pkg::WIDE_POINT : terraline_pkg::NARROW_POINT;
@@ -80,7 +80,7 @@ module stepper #(
   localparam logic [3:0] SCALE = 4'd1;  // finds its largest component
   localparam logic [3:0] STEP = 4'd2;  // makes its step
   localparam logic [3:0] START = 4'd3;  // starts its walk
-  localparam logic [3:0] TRIAL = 4'd4;  // asks for a bound
+  localparam logic [3:0] SKIP = 4'd4;  // asks for a bound
   localparam logic [3:0] BOUND = 4'd5;  // waits for it, and jumps or not
   localparam logic [3:0] SAMPLE = 4'd6;  // a burst of samples streams
   localparam logic [3:0] AIM = 4'd7;  // takes the distance of the hit
@@ -94,7 +94,7 @@ module stepper #(
   logic takes, starts, tries, waits, streams, aims, halves, rims;
   assign takes = state == IDLE;
   assign starts = state == START;
-  assign tries = state == TRIAL;
+  assign tries = state == SKIP;
   assign waits = state == BOUND;
   assign streams = state == SAMPLE;
   assign aims = state == AIM;
@@ -155,7 +155,7 @@ module stepper #(
   logic [25:0] remaining, remaining_next, remaining_ahead;
   logic signed [7:0] ahead_leading;
   logic [4:0] level;
-  logic trial_follows;
+  logic skip_test_follows;
   logic [6:0] run;
   logic tag_last, tag_over;
   logic [3:0] walk_on;
@@ -163,11 +163,11 @@ module stepper #(
   walk_plan plan (
       .clock(clock), .fineness(fineness), .last(last), .skipping(skipping),
       .pyramid_top(pyramid_top), .starts(starts), .tries(tries), .waits(waits),
-      .bounded(bound_valid), .clear(clear), .passes(streams && answered), .ends_group(tag_last),
+      .bounded(bound_valid), .clear(clear), .passes(streams && answered), .ends_burst(tag_last),
       .remaining(remaining), .remaining_next(remaining_next), .remaining_ahead(remaining_ahead),
       .ahead_leading(ahead_leading), .level(level), .jump_log2(jump_log2),
-      .trial_follows(trial_follows), .run(run));
-  assign walk_on = trial_follows ? TRIAL : SAMPLE;
+      .skip_test_follows(skip_test_follows), .run(run));
+  assign walk_on = skip_test_follows ? SKIP : SAMPLE;
 
   // ---- The skip test.
   logic none;
@@ -202,16 +202,16 @@ module stepper #(
   // ---- The bisection steps behind a hit (equation 22).
   logic bisects;
   logic aimed;  // the first cycle of the bisection
-  logic [5:0] times, halvings_left;
+  logic [5:0] times, bisections_left;
 
-  halvings #(.W(W), .POINT(POINT)) halvings (
+  bisection #(.W(W), .POINT(POINT)) bisection (
       .clock(clock), .eye_x(eye_x), .eye_y(eye_y), .eye_z(eye_z),
-      .fixed(halvings_fixed), .bias(halvings_bias), .cap(halvings_cap),
+      .fixed(bisection_fixed), .bias(bisection_bias), .cap(bisection_cap),
       .x(follow_x), .y(follow_y), .z(follow_z), .any(bisects), .times(times));
   always_ff @(posedge clock) begin
     aimed <= aims;
-    if (aimed) halvings_left <= times;
-    else if (answered) halvings_left <= halvings_left - 6'd1;
+    if (aimed) bisections_left <= times;
+    else if (answered) bisections_left <= bisections_left - 6'd1;
   end
 
   // ---- The end of the walk.
@@ -253,11 +253,11 @@ module stepper #(
         SCALE: state <= STEP;
         STEP: state <= START;
         START: state <= put ? IDLE : walk_on;
-        TRIAL: state <= BOUND;
+        SKIP: state <= BOUND;
         BOUND: if (bound_valid) state <= put ? IDLE : walk_on;
         SAMPLE: if (ends) state <= hits ? AIM : put ? IDLE : walk_on;
         AIM: state <= bisects ? HALVE : void_bits ? RIM : PLACE;
-        HALVE: if (ends && halvings_left == 6'd1) state <= void_bits ? RIM : PLACE;
+        HALVE: if (ends && bisections_left == 6'd1) state <= void_bits ? RIM : PLACE;
         RIM: if (ends) state <= PLACE;
         default: state <= IDLE;
       endcase

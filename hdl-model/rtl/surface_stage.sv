@@ -15,7 +15,7 @@ module surface_stage #(
     // Items from the stepper
     input  logic                in_valid,        // an item is there
     output logic                in_ready,        // it is taken at this edge
-    input  logic        [  1:0] in_hit,          // 0 sky, 1 surface, 2 side, 3 far
+    input  logic        [  1:0] in_hit,          // 0 sky, 1 surface, 2 side, 3 out of range
     input  logic signed [W-1:0] in_ground_x,     // place, x in cells
     input  logic signed [W-1:0] in_ground_z,     // z
     // Requests to the interpolation, and its answers

@@ -58,10 +58,10 @@ module terraline #(
     output logic [       W-1:0] view_y,            // y
     output logic [       W-1:0] view_z,            // z
     output logic [       W-1:0] denominator,       // denominator
-    output logic [         1:0] entry,             // from the divider: 0 met, 1 sky, 2 far
+    output logic [         1:0] entry,             // from the divider: 0 met, 1 sky, 2 out of range
     output logic [       W-1:0] entry_x,           // where the ray enters, x
     output logic [       W-1:0] entry_z,           // z
-    output logic [         1:0] stepper_hit,          // from the stepper: 0 sky, 1 surface, 2 side, 3 far
+    output logic [         1:0] stepper_hit,          // from the stepper: 0 sky, 1 surface, 2 side, 3 out of range
     output logic [       W-1:0] ground_x,          // place of the hit, x
     output logic [       W-1:0] ground_z,          // z
     output logic [        25:0] steps,             // index of the sample that hit
@@ -110,14 +110,14 @@ module terraline #(
   logic sides;
   logic void_bits;
   logic [1:0] form;
-  logic [5:0] blend_shift;
+  logic [5:0] deformation_shift;
   logic [4:0] kernel_log2;
   logic slope_scaled;
   logic signed [W-1:0] slope_scale_x;
   logic signed [W-1:0] slope_scale_z;
   logic [6:0] memory_latency;
   logic [23:0] sky_color;
-  logic [23:0] far_color;
+  logic [23:0] out_of_range_color;
   logic [23:0] side_color;
   logic lit;
   logic signed [W-1:0] light_x;
@@ -181,14 +181,14 @@ module terraline #(
       .sides(sides),
       .void_bits(void_bits),
       .form(form),
-      .blend_shift(blend_shift),
+      .deformation_shift(deformation_shift),
       .kernel_log2(kernel_log2),
       .slope_scaled(slope_scaled),
       .slope_scale_x(slope_scale_x),
       .slope_scale_z(slope_scale_z),
       .memory_latency(memory_latency),
       .sky_color(sky_color),
-      .far_color(far_color),
+      .out_of_range_color(out_of_range_color),
       .side_color(side_color),
       .lit(lit),
       .light_x(light_x),
@@ -315,9 +315,9 @@ module terraline #(
         .base(base),
         .fineness(fineness),
         .last(last),
-        .halvings_fixed(bisection_fixed),
-        .halvings_bias(bisection_bias),
-        .halvings_cap(bisection_cap),
+        .bisection_fixed(bisection_fixed),
+        .bisection_bias(bisection_bias),
+        .bisection_cap(bisection_cap),
         .skipping(skipping),
         .pyramid_top(pyramid_top),
         .beyond_sky(beyond_sky),
@@ -368,7 +368,7 @@ module terraline #(
         .clock(clock),
         .reset(reset),
         .form(form),
-        .blend_shift(blend_shift),
+        .deformation_shift(deformation_shift),
         .table_log2(kernel_log2),
         .map_columns(map_columns),
         .map_rows(map_rows),
@@ -450,7 +450,7 @@ module terraline #(
         .clock(clock),
         .reset(reset),
         .form(form),
-        .blend_shift(blend_shift),
+        .deformation_shift(deformation_shift),
         .table_log2(kernel_log2),
         .map_columns(map_columns),
         .map_rows(map_rows),
@@ -492,7 +492,7 @@ module terraline #(
         .clock(clock),
         .reset(reset),
         .sky_color(sky_color),
-        .far_color(far_color),
+        .out_of_range_color(out_of_range_color),
         .side_color(side_color),
         .lit(lit),
         .toward_x(light_x),
@@ -534,7 +534,7 @@ module terraline #(
         .clock(clock),
         .reset(reset),
         .sky_color(sky_color),
-        .far_color(far_color),
+        .out_of_range_color(out_of_range_color),
         .mean_red(mean_red),
         .mean_green(mean_green),
         .mean_blue(mean_blue),

@@ -41,8 +41,8 @@ package terraline_pkg;
   localparam int DIVIDER_ENDS = 3;  // stages of the divider besides one per quotient bit
   localparam int STEPPER_DEPTH = 2;  // D of the stepper and of the serial divider
   localparam int RAY_START = 4;  // cycles to turn a view vector into a step and to begin with it
-  localparam int RAY_END = 2;  // cycles of a hit besides its halvings
-  localparam int KERNEL_LATENCY = 2;  // cycles of kernel ROM and blend
+  localparam int RAY_END = 2;  // cycles of a hit besides its bisection steps
+  localparam int KERNEL_LATENCY = 2;  // cycles of kernel ROM and hat weight
   localparam int LERP_LATENCY = 5;  // stages of a height behind nodes and weights
   localparam int SLOPE_LATENCY = 2;  // stages of the slopes' factors
   localparam int SHADER_LATENCY = 13;  // L of the shader
@@ -85,14 +85,14 @@ package terraline_pkg;
   localparam int ADDRESS_SIDES = 33;
   localparam int ADDRESS_VOID_BITS = 34;
   localparam int ADDRESS_FORM = 35;
-  localparam int ADDRESS_BLEND_SHIFT = 36;
+  localparam int ADDRESS_DEFORMATION_SHIFT = 36;
   localparam int ADDRESS_KERNEL_LOG2 = 37;
   localparam int ADDRESS_SLOPE_SCALED = 38;
   localparam int ADDRESS_SLOPE_SCALE_X = 39;
   localparam int ADDRESS_SLOPE_SCALE_Z = 40;
   localparam int ADDRESS_MEMORY_LATENCY = 41;
   localparam int ADDRESS_SKY_COLOR = 42;
-  localparam int ADDRESS_FAR_COLOR = 43;
+  localparam int ADDRESS_OUT_OF_RANGE_COLOR = 43;
   localparam int ADDRESS_SIDE_COLOR = 44;
   localparam int ADDRESS_LIT = 45;
   localparam int ADDRESS_LIGHT_X = 46;

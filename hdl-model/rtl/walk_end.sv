@@ -55,8 +55,8 @@ module walk_end #(
     output logic signed [   W-1:0] put_z,            // z
     output logic        [    25:0] put_steps         // samples passed
 );
-  localparam logic [1:0] SKY = 2'd0, SURFACE = 2'd1, SIDE = 2'd2, FAR = 2'd3;
-  localparam logic [1:0] ENTRY_MET = 2'd0, ENTRY_FAR = 2'd2;
+  localparam logic [1:0] SKY = 2'd0, SURFACE = 2'd1, SIDE = 2'd2, OUT_OF_RANGE = 2'd3;
+  localparam logic [1:0] ENTRY_MET = 2'd0, ENTRY_OUT_OF_RANGE = 2'd2;
 
   logic signed [CELL-1:0] clear_i, clear_j, middle_i, middle_j;
   logic clear_on_map, middle_on_map;
@@ -86,24 +86,24 @@ module walk_end #(
       put_steps = '0;
       if (entry != ENTRY_MET) begin
         put = 1'b1;
-        put_hit = entry == ENTRY_FAR && !beyond_sky ? FAR : SKY;
+        put_hit = entry == ENTRY_OUT_OF_RANGE && !beyond_sky ? OUT_OF_RANGE : SKY;
       end else if (place_over) begin
         put = 1'b1;
       end else if (last == '0) begin
         put = 1'b1;
-        put_hit = FAR;
+        put_hit = OUT_OF_RANGE;
       end
     end else if (waits) begin
       put_x = ahead_x;
       put_z = ahead_z;
       put_steps = last - remaining_ahead;
-      put_hit = ahead_over ? SKY : FAR;
+      put_hit = ahead_over ? SKY : OUT_OF_RANGE;
       put = bounded && clear && (ahead_over || remaining_ahead == '0);
     end else if (streams) begin
       put_x = follow_x;
       put_z = follow_z;
       put_steps = last - remaining_next;
-      put_hit = tag_over ? SKY : FAR;
+      put_hit = tag_over ? SKY : OUT_OF_RANGE;
       put = answered && !hits
           && (tag_last ? tag_over || remaining_next == '0 : tag_over && !answer_exists);
     end else if (places) begin

@@ -1,40 +1,40 @@
-// What remains of a walk, and what comes next in it: a jump, of which level, or a group of samples
+// What remains of a walk, and what comes next in it: a jump, of which level, or a burst of samples
 // (equation 21). A jump of level m takes 2^(m + k) steps, which must not pass the last sample.
 //
 // The level rises by one behind a jump, unless that would pass the last sample, and falls by one where
-// there was none. Walks begin at level 0, and so does what follows a group; a trial of level 0 that is not
-// clear is followed by a group.
+// there was none. Walks begin at level 0, and so does what follows a burst; a skip test of level 0 that is
+// not clear is followed by a burst.
 module walk_plan (
     input  logic               clock,
     // Coefficients
-    input  logic        [ 2:0] fineness,         // k: steps of at most 2^-k cells
-    input  logic        [25:0] last,             // index of the last sample
-    input  logic               skipping,         // the pyramid is fitted
-    input  logic        [ 4:0] pyramid_top,      // its highest level
+    input  logic        [ 2:0] fineness,           // k: steps of at most 2^-k cells
+    input  logic        [25:0] last,               // index of the last sample
+    input  logic               skipping,           // the pyramid is fitted
+    input  logic        [ 4:0] pyramid_top,        // its highest level
     // What the stepper does in this cycle
-    input  logic               starts,           // starts a walk
-    input  logic               tries,            // tries a jump
-    input  logic               waits,            // waits for its bound
-    input  logic               bounded,          // the bound is there
-    input  logic               clear,            // and allows the jump
-    input  logic               passes,           // a sample is answered
-    input  logic               ends_group,       // it ends its group
+    input  logic               starts,             // starts a walk
+    input  logic               tries,              // tries a jump
+    input  logic               waits,              // waits for its bound
+    input  logic               bounded,            // the bound is there
+    input  logic               clear,              // and allows the jump
+    input  logic               passes,             // a sample is answered
+    input  logic               ends_burst,         // it ends its burst
     // The walk
-    output logic        [25:0] remaining,        // samples up to the last one
-    output logic        [25:0] remaining_next,   // behind one more sample
-    output logic        [25:0] remaining_ahead,  // behind the jump that is tried
-    output logic signed [ 7:0] ahead_leading,    // its leading one, where it is less than the jump
-    output logic        [ 4:0] level,            // of the trial
-    output logic        [ 5:0] jump_log2,        // its steps, as a power of two
-    output logic               trial_follows,    // else a group follows
-    output logic        [ 6:0] run               // of so many samples
+    output logic        [25:0] remaining,          // samples up to the last one
+    output logic        [25:0] remaining_next,     // behind one more sample
+    output logic        [25:0] remaining_ahead,    // behind the jump that is tried
+    output logic signed [ 7:0] ahead_leading,      // its leading one, where it is less than the jump
+    output logic        [ 4:0] level,              // of the skip test
+    output logic        [ 5:0] jump_log2,          // its steps, as a power of two
+    output logic               skip_test_follows,  // else a burst follows
+    output logic        [ 6:0] run                 // of this many samples
 );
   logic [25:0] remaining_here;
   logic [6:0] run_ahead, run_next, run_here;
   logic jump_ahead, jump_next, jump_here;
 
   // Behind the jump, behind the sample, or where the walk stands.
-  next_trial trial_ahead (
+  next_skip_test skip_test_ahead (
       .fineness(fineness),
       .skipping(skipping),
       .remaining(remaining_ahead),
@@ -42,7 +42,7 @@ module walk_plan (
       .run(run_ahead)
   );
   assign remaining_next = remaining - 26'd1;
-  next_trial trial_next (
+  next_skip_test skip_test_next (
       .fineness(fineness),
       .skipping(skipping),
       .remaining(remaining_next),
@@ -50,7 +50,7 @@ module walk_plan (
       .run(run_next)
   );
   assign remaining_here = starts ? last : remaining;
-  next_trial trial_here (
+  next_skip_test skip_test_here (
       .fineness(fineness),
       .skipping(skipping),
       .remaining(remaining_here),
@@ -81,15 +81,15 @@ module walk_plan (
 
   always_comb begin
     if (waits && clear) begin
-      trial_follows = jump_ahead;
+      skip_test_follows = jump_ahead;
       next_level = level_ahead;
       run = run_ahead;
     end else if (passes) begin
-      trial_follows = jump_next;
+      skip_test_follows = jump_next;
       next_level = '0;
       run = run_next;
     end else begin
-      trial_follows = jump_here && !(waits && level == '0);
+      skip_test_follows = jump_here && !(waits && level == '0);
       next_level = waits && level != '0 ? level - 5'd1 : '0;
       run = run_here;
     end
@@ -103,6 +103,6 @@ module walk_plan (
     if (starts) remaining <= last;
     else if (waits && bounded && clear) remaining <= remaining_ahead;
     else if (passes) remaining <= remaining_next;
-    if (starts || (waits && bounded) || (passes && ends_group)) level <= next_level;
+    if (starts || (waits && bounded) || (passes && ends_burst)) level <= next_level;
   end
 endmodule

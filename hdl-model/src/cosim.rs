@@ -1,12 +1,12 @@
 //! Co-simulation: a frame by the RTL beside the emulator, compared in every output of every unit
 //! and in every cycle.
 
-use terraline::clock::{Chain, Clock, Sink};
+use terraline::clock::{Chain, Clock, Taker};
 use terraline::processor::Processor;
 use terraline::setup::Setup;
 use terraline::word::Complete;
 
-use crate::machine::{Machine, STAGES, Words, port_name};
+use crate::rtl::{Rtl, STAGES, Words, port_name};
 
 /// The first differences that are described.
 const DESCRIBED: usize = 8;
@@ -14,7 +14,7 @@ const DESCRIBED: usize = 8;
 /// What a co-simulation found.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Pixels compared.
+    /// Pixels of the frame, all of which were compared.
     pub pixels: u64,
     /// Cycles of the RTL, from the first after start to the one in which the last pixel is taken.
     pub cycles: u64,
@@ -22,7 +22,7 @@ pub struct Outcome {
     pub expected_cycles: u64,
     /// Per fitted unit: name, and cycles in which an item waited before it.
     pub waits: Vec<(&'static str, u64)>,
-    /// Differences found.
+    /// Outputs and cycles that are not the emulator's.
     pub differences: u64,
     /// The first of them.
     pub described: Vec<String>,
@@ -67,21 +67,21 @@ struct Run {
 /// memories.
 pub fn compare<W: Complete>(
     setup: &Setup<W>,
-    sink: Sink,
+    taker: Taker,
     trace: Option<(&str, Window)>,
 ) -> Result<Outcome, String> {
-    let machine = Machine::new(setup)?;
-    compare_with(machine, setup, sink, trace)
+    let rtl = Rtl::new(setup)?;
+    compare_with(rtl, setup, taker, trace)
 }
 
-/// Compares the frame of a loaded machine with the emulator's frame of a set-up.
+/// Compares the frame of loaded RTL with the emulator's frame of a set-up.
 ///
 /// # Errors
 /// As [`compare`].
 pub fn compare_with<W: Complete>(
-    mut machine: Machine<'_, W>,
+    mut rtl: Rtl<'_, W>,
     setup: &Setup<W>,
-    sink: Sink,
+    taker: Taker,
     trace: Option<(&str, Window)>,
 ) -> Result<Outcome, String> {
     let chain = Chain::new(setup);
@@ -91,14 +91,14 @@ pub fn compare_with<W: Complete>(
         .filter_map(|stage| STAGES.iter().position(|unit| *unit == stage.name))
         .collect();
     let pixels = u64::from(setup.columns) * u64::from(setup.lines);
-    let mut clock = Clock::new(chain.clone()).with_sink(sink);
+    let mut clock = Clock::new(chain.clone()).with_taker(taker);
     let mut processor = Processor::new(setup);
     let mut line = processor.wires();
     while processor.run_line(&mut line) {
         clock.take_line(&line, |_, _| {});
     }
     let limit = clock.cycles() + clock.cycles() / 8 + 10_000;
-    let drawn = draw(&mut machine, pixels, limit, sink, trace)?;
+    let drawn = draw(&mut rtl, pixels, limit, taker, trace)?;
     let mut outcome = Outcome {
         pixels,
         cycles: drawn.taken[STAGES.len() - 1].last().map_or(0, |last| last + 1),
@@ -107,7 +107,7 @@ pub fn compare_with<W: Complete>(
         differences: 0,
         described: Vec::new(),
     };
-    let mut clock = Clock::new(chain).with_sink(sink);
+    let mut clock = Clock::new(chain).with_taker(taker);
     let mut processor = Processor::new(setup);
     let mut at = 0;
     while processor.run_line(&mut line) {
@@ -144,10 +144,10 @@ pub fn compare_with<W: Complete>(
 }
 
 fn draw<W: Complete>(
-    machine: &mut Machine<'_, W>,
+    rtl: &mut Rtl<'_, W>,
     pixels: u64,
     limit: u64,
-    sink: Sink,
+    taker: Taker,
     trace: Option<(&str, Window)>,
 ) -> Result<Run, String> {
     let mut run = Run {
@@ -157,19 +157,19 @@ fn draw<W: Complete>(
     };
     let window = trace.map(|(_, window)| window);
     if let Some((path, _)) = trace {
-        machine.open_trace(path)?;
+        rtl.open_trace(path)?;
     }
-    machine.start();
+    rtl.start();
     let frame = STAGES.len() - 1;
     let mut cycle = 0;
-    // A machine that falls far behind is wrong, and might never end.
+    // RTL that falls far behind is wrong, and might never end.
     while cycle < limit && (run.taken[frame].len() as u64) < pixels {
         if let Some(window) = window {
             let (begun, done) = (run.taken[0].len() as u64, run.taken[frame].len() as u64);
-            machine.trace(begun >= window.first && done < window.end);
+            rtl.trace(begun >= window.first && done < window.end);
         }
         let passed = &mut run.passed;
-        let now = machine.cycle(sink, |unit, words| passed[unit].push(words))?;
+        let now = rtl.cycle(taker, |unit, words| passed[unit].push(words))?;
         for unit in 0..STAGES.len() {
             if now.takes >> unit & 1 == 1 {
                 run.taken[unit].push(cycle);

@@ -12,13 +12,13 @@ pub mod cosim;
 #[cfg(rtl)]
 mod ffi;
 #[cfg(rtl)]
-pub mod machine;
-#[cfg(rtl)]
 mod memory;
 #[cfg(rtl)]
 mod model;
 pub mod netlist;
 pub mod package;
+#[cfg(rtl)]
+pub mod rtl;
 pub mod sizes;
 #[cfg(rtl)]
 mod waves;

@@ -1,4 +1,4 @@
-//! Memories beside the machine: they answer in order, so many cycles after the address.
+//! Memories beside the machine: they answer in order, a number of cycles after the address.
 
 use std::collections::VecDeque;
 

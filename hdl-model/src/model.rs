@@ -23,7 +23,7 @@ pub struct Model {
 }
 
 impl Port {
-    /// Bits.
+    /// Bits of the port.
     pub fn width(self) -> u32 {
         self.width
     }
@@ -96,7 +96,7 @@ impl Model {
         sign_extended(self.get(port), port.width)
     }
 
-    /// A flag.
+    /// Whether a port of one bit is 1.
     pub fn is(&self, port: Port) -> bool {
         self.get(port) != 0
     }

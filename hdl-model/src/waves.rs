@@ -8,7 +8,7 @@ use terraline::setup::{Back, Setup};
 use terraline::unit::Wire;
 use terraline::word::{Complete, Register};
 
-use crate::machine::{Machine, STAGES, port_name};
+use crate::rtl::{Rtl, STAGES, port_name};
 
 /// Flags of GTKWave: right-justified hexadecimal, the same as signed decimal, and with a shift for
 /// the binary point.
@@ -20,7 +20,7 @@ const FIXED_POINT: u64 = 1 << 30;
 const BLANK: u64 = 0x200;
 
 /// The save file beside a trace.
-pub fn gtkw<W: Complete>(trace: &Path, setup: &Setup<W>, machine: &Machine<'_, W>) -> String {
+pub fn gtkw<W: Complete>(trace: &Path, setup: &Setup<W>, rtl: &Rtl<'_, W>) -> String {
     let point = |register| setup.world.fixed(register).map(|fixed| fixed.point);
     let width = setup.world.fixed(Register::ViewX).map_or(0, |fixed| fixed.width);
     let terrain = matches!(setup.back, Back::Terrain(_));
@@ -31,7 +31,7 @@ pub fn gtkw<W: Complete>(trace: &Path, setup: &Setup<W>, machine: &Machine<'_, W
     out.signal("takes", 6, HEXADECIMAL, None);
     out.signal("waits", 6, HEXADECIMAL, None);
     for (at, stage) in STAGES.into_iter().enumerate() {
-        let wires: Vec<Wire> = machine.shown(at).collect();
+        let wires: Vec<Wire> = rtl.shown(at).collect();
         if !wires.is_empty() {
             out.group(&format!("from the {stage}"));
         }

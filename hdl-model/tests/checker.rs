@@ -1,5 +1,5 @@
-//! The checker against the emulator's, in every bit and cycle: real planes, and hostile coefficients
-//! and items within the ranges that the module states.
+//! The checker against the emulator's, in every bit and cycle: real planes, and corner cases of
+//! coefficients and items within the ranges that the module states.
 #![cfg(rtl)]
 
 mod elastic;
@@ -28,7 +28,7 @@ const TAG: u64 = 0xffff;
 fn load_coefficients<W: Stock>(rtl: &mut Model, checker: &Checker<W>) {
     let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
     set("sky_color", packed(checker.pixel.sky) as i64);
-    set("far_color", packed(checker.pixel.out_of_range) as i64);
+    set("out_of_range_color", packed(checker.pixel.out_of_range) as i64);
     for (at, channel) in ["red", "green", "blue"].into_iter().enumerate() {
         set(&format!("mean_{channel}"), bits(checker.mean[at]));
         set(&format!("swing_{channel}"), bits(checker.swing[at]));
@@ -136,7 +136,7 @@ fn real_frames_wide() {
 }
 
 /// Coefficients anywhere in their ranges, and the largest denominator below full contrast.
-fn hostile_checker<W: Stock>(world: W, random: &mut Random) -> (Checker<W>, i64) {
+fn corner_case_checker<W: Stock>(world: W, random: &mut Random) -> (Checker<W>, i64) {
     let one = 1_i64 << W::Tone::FRACTION;
     let largest = i64::MAX >> (64 - W::WIDTH);
     let byte = |random: &mut Random| [0, 255, random.within(0, 255)][random.within(0, 2) as usize];
@@ -215,7 +215,7 @@ fn tie<W: Stock>(checker: &Checker<W>, channel: usize) -> i64 {
     scaled << (W::View::FRACTION - point) >> checker.contrast_exponent.clamp(0, 40)
 }
 
-fn hostile<W: Stock>(world: W, seed: u64) {
+fn corner_cases<W: Stock>(world: W, seed: u64) {
     const ITEMS: u32 = 2000;
     /// Items tried for one near a rounding.
     const TRIALS: u32 = 200;
@@ -223,13 +223,13 @@ fn hostile<W: Stock>(world: W, seed: u64) {
     let mut rtl = Model::new(&format!("checkers_{}", W::NAME));
     let largest = i64::MAX >> (64 - W::WIDTH);
     for _ in 0..60 {
-        let (checker, below) = hostile_checker(world, &mut random);
+        let (checker, below) = corner_case_checker(world, &mut random);
         load_coefficients(&mut rtl, &checker);
         let mut line = Line::new(&world, 0..ITEMS);
         for i in 0..line.len() {
             line.entry[i] = match random.within(0, 7) {
                 0 => Entry::Sky,
-                1 => Entry::Far,
+                1 => Entry::OutOfRange,
                 _ => Entry::Met,
             };
             let full = checker.full_from.map_or(0, bits);
@@ -263,11 +263,11 @@ fn hostile<W: Stock>(world: W, seed: u64) {
 }
 
 #[test]
-fn hostile_items_narrow() {
-    hostile(Narrow, 3);
+fn corner_cases_in_narrow_words() {
+    corner_cases(Narrow, 3);
 }
 
 #[test]
-fn hostile_items_wide() {
-    hostile(Wide, 4);
+fn corner_cases_in_wide_words() {
+    corner_cases(Wide, 4);
 }

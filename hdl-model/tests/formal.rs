@@ -216,8 +216,8 @@ const STEPPER: Proof = Proof {
     modules: &[
         "terraline_pkg",
         "leading_one",
-        "halvings",
-        "next_trial",
+        "bisection",
+        "next_skip_test",
         "ray_axis",
         "ray_step",
         "ray_end",
@@ -244,7 +244,7 @@ fn jumps_stay_within_the_remaining_samples() {
         return;
     }
     let proof = Proof { parameters: &[("PART", 0), ("JUMP", 4)], ..STEPPER };
-    proof.holds(9, &["cover_far", "cover_group"]);
+    proof.holds(9, &["cover_far", "cover_burst"]);
     // A jump of twice the samples that remain.
     proof.fails_with(("walk_plan", ">= jump_length << 1", ">= jump_length"));
 }

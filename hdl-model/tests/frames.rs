@@ -1,7 +1,7 @@
 //! Whole frames: every output of every unit and every cycle against the emulator.
 #![cfg(rtl)]
 
-use terraline::clock::Sink;
+use terraline::clock::Taker;
 use terraline::engine::{self, Memories, WithSetup};
 use terraline::plan::Plan;
 use terraline::scene;
@@ -11,29 +11,29 @@ use terraline::word::Complete;
 use terraline::word::Lane;
 use terraline::word::stock::Narrow;
 use terraline_hdl::cosim::{Outcome, compare, compare_with};
-use terraline_hdl::machine::Machine;
+use terraline_hdl::rtl::Rtl;
 
 struct Cosimulation {
-    sink: Sink,
+    taker: Taker,
 }
 
 impl WithSetup for Cosimulation {
     type Output = Outcome;
 
     fn run<W: Complete>(self, setup: &Setup<W>) -> Outcome {
-        compare(setup, self.sink, None).expect("a frame")
+        compare(setup, self.taker, None).expect("a frame")
     }
 }
 
-fn assert_equal(name: &str, sets: &[&str], sink: Sink) {
+fn assert_equal(name: &str, sets: &[&str], taker: Taker) {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
     let scene = scene::load(Some(name), &sets).expect("a scene");
     let plan = Plan::new(&scene, None, false).expect("a plan");
     let machine = engine::Machine::new(&scene, &plan, &Memories::default()).expect("a set-up");
-    let outcome = machine.run(Cosimulation { sink });
+    let outcome = machine.run(Cosimulation { taker });
     assert!(
         outcome.is_equal(),
-        "{name} {sets:?} {sink:?}: {} differences, {} cycles for {}\n{}",
+        "{name} {sets:?} {taker:?}: {} differences, {} cycles for {}\n{}",
         outcome.differences,
         outcome.cycles,
         outcome.expected_cycles,
@@ -41,17 +41,17 @@ fn assert_equal(name: &str, sets: &[&str], sink: Sink) {
     );
 }
 
-const BUSY: Sink = Sink::Busy { seed: 11, of_256: 120 };
+const BUSY: Taker = Taker::Busy { seed: 11, of_256: 120 };
 
 #[test]
 fn planes() {
     for set in ["machine.words=narrow", "machine.words=wide"] {
-        for sink in [Sink::Ready, BUSY] {
-            assert_equal("plane", &["screen.size=[160, 120]", set], sink);
+        for taker in [Taker::Ready, BUSY] {
+            assert_equal("plane", &["screen.size=[160, 120]", set], taker);
             let sets = ["screen.size=[160, 120]", set, "machine.ratio=serial"];
-            assert_equal("plane", &sets, sink);
+            assert_equal("plane", &sets, taker);
             let sets = ["screen.size=[160, 120]", set, "camera.pitch=-35", "camera.roll=25"];
-            assert_equal("plane", &sets, sink);
+            assert_equal("plane", &sets, taker);
         }
     }
 }
@@ -60,7 +60,7 @@ fn planes() {
 fn terrain() {
     for name in ["overview", "flight", "valley"] {
         for latency in ["machine.memory_latency=1", "machine.memory_latency=2"] {
-            assert_equal(name, &["screen.size=[160, 120]", latency], Sink::Ready);
+            assert_equal(name, &["screen.size=[160, 120]", latency], Taker::Ready);
         }
         assert_equal(name, &["screen.size=[160, 120]", "machine.memory_latency=5"], BUSY);
     }
@@ -94,10 +94,10 @@ fn differences(change: impl Fn(&mut Setup<Narrow>)) -> (u64, String) {
     let scene = scene::load(Some("flight"), &sets).expect("a scene");
     let plan = Plan::new(&scene, None, false).expect("a plan");
     let setup = Memories::default().set_up(Narrow, &scene, &plan).expect("a set-up");
-    let machine = Machine::new(&setup).expect("a machine");
+    let machine = Rtl::new(&setup).expect("a machine");
     let mut changed = setup.clone();
     change(&mut changed);
-    let outcome = compare_with(machine, &changed, Sink::Ready, None).expect("a frame");
+    let outcome = compare_with(machine, &changed, Taker::Ready, None).expect("a frame");
     (outcome.differences, outcome.described.join("\n"))
 }
 

@@ -72,13 +72,13 @@ impl<W: Bits> Bench<W> {
     fn load(&mut self) {
         let (form, shift) = match self.emulator.form {
             Form::Plain => (0, 0),
-            Form::Blend(shift) => (1, shift.min(63)),
+            Form::TowardHat(shift) => (1, shift.min(63)),
             Form::Hat => (2, 0),
             Form::Stretch => (3, 0),
         };
         let heights = Arc::clone(&self.emulator.heights);
         self.set("form", form);
-        self.set("blend_shift", shift.into());
+        self.set("deformation_shift", shift.into());
         self.set("map_columns", heights.columns().into());
         self.set("map_rows", heights.rows().into());
         self.set("map_ends", (heights.edge() == Edge::Ends).into());
@@ -292,8 +292,8 @@ fn compare<W: Bits>(stretch: bool, slopes: bool, seed: u64) -> usize {
             _ if stretch => Form::Stretch,
             0 => Form::Plain,
             1 => Form::Hat,
-            2 => Form::Blend(random.among(&[0, 1, 23, 24, 25, 31, 32, 63])),
-            _ => Form::Blend(random.below(8) as u32),
+            2 => Form::TowardHat(random.among(&[0, 1, 23, 24, 25, 31, 32, 63])),
+            _ => Form::TowardHat(random.below(8) as u32),
         };
         let scale = |random: &mut Random| {
             let one = 1_i64 << W::POINT;

@@ -4,7 +4,7 @@
 mod random;
 
 use random::Random;
-use terraline::clock::Sink;
+use terraline::clock::Taker;
 use terraline::unit::projector::{Linear, Projector};
 use terraline::unit::{Line, Unit as _};
 use terraline::word::stock::{Narrow, Wide};
@@ -62,7 +62,7 @@ fn compare<W: World<View: Lane>>(
             }
             unit.next_line(&mut line.start);
         }
-        let sink = Sink::Busy { seed: frame, of_256: (frame % 3 * 100) as u8 };
+        let taker = Taker::Busy { seed: frame, of_256: (frame % 3 * 100) as u8 };
         rtl.set(reset, 1);
         rtl.set(running, 0);
         rtl.edge();
@@ -74,7 +74,7 @@ fn compare<W: World<View: Lane>>(
         while left < expected.len() {
             rtl.set(running, (taken < expected.len()).into());
             rtl.set(last_column, (taken as u32 % columns == columns - 1).into());
-            let is_ready = sink.is_ready(cycle);
+            let is_ready = taker.is_ready(cycle);
             rtl.set(ready, is_ready.into());
             rtl.settle();
             taken += usize::from(rtl.is(step));

@@ -1,6 +1,6 @@
 //! The shader against the emulator's, in every bit and cycle: real frames of many lights and ramps,
-//! and hostile coefficients and items within the ranges that the modules state; light and ramp by
-//! themselves as well, up to the wires between them and the mixer.
+//! and corner cases of coefficients and items within the ranges that the modules state; light and
+//! ramp by themselves as well, up to the wires between them and the mixer.
 #![cfg(rtl)]
 
 mod elastic;
@@ -77,7 +77,7 @@ fn load_ramp<W: Stock>(rtl: &mut Model, ramp: &Ramp<W>, strobe: &str) {
 fn load_coefficients<W: Stock>(rtl: &mut Model, shader: &Shader<W>) {
     let mut set = |name: &str, value: i64| rtl.set_signed(rtl.port(name), value);
     set("sky_color", packed(shader.pixel.sky) as i64);
-    set("far_color", packed(shader.pixel.out_of_range) as i64);
+    set("out_of_range_color", packed(shader.pixel.out_of_range) as i64);
     set("side_color", packed(shader.pixel.side) as i64);
     load_light(rtl, shader.light.as_ref(), "load_rsqrt");
     load_ramp(rtl, &shader.ramp, "load_ramp");
@@ -177,7 +177,7 @@ fn real_frames_wide() {
 }
 
 /// Coefficients anywhere in their ranges.
-fn hostile_shader<W: Stock>(world: W, random: &mut Random) -> Shader<W> {
+fn corner_case_shader<W: Stock>(world: W, random: &mut Random) -> Shader<W> {
     let one = 1_i64 << W::Tone::FRACTION;
     let toward = |random: &mut Random| match random.within(0, 5) {
         0 => one,
@@ -231,7 +231,7 @@ fn hostile_shader<W: Stock>(world: W, random: &mut Random) -> Shader<W> {
 }
 
 /// A height that comes to a value in [-2, 2) on its way to the ramp.
-fn hostile_height<W: Stock>(exponent: i32, random: &mut Random) -> i64 {
+fn corner_case_height<W: Stock>(exponent: i32, random: &mut Random) -> i64 {
     let two = 2_i128 << W::Tone::FRACTION;
     let shifted = match random.within(0, 5) {
         0 => [0, 1, -1, two / 2, two - 1, -two][random.within(0, 5) as usize],
@@ -259,12 +259,12 @@ fn is_near_rounding<W: Stock>(lit: [W::Tone; 3], within: i64) -> bool {
     lit.iter().any(|&channel| (bits(channel.fraction()) - half).abs() < within)
 }
 
-fn hostile<W: Stock>(world: W, seed: u64) {
+fn corner_cases<W: Stock>(world: W, seed: u64) {
     const ITEMS: u32 = 2000;
     let mut random = Random(seed);
     let mut rtl = Model::new(&format!("shader_{}", W::NAME));
     for _ in 0..40 {
-        let shader = hostile_shader(world, &mut random);
+        let shader = corner_case_shader(world, &mut random);
         load_coefficients(&mut rtl, &shader);
         let mut line = Line::new(&world, 0..ITEMS);
         let mut tried = Line::new(&world, [0]);
@@ -274,7 +274,7 @@ fn hostile<W: Stock>(world: W, seed: u64) {
             line.hit[i] = match random.within(0, 3 + flat) {
                 0 => Hit::Sky,
                 2 => Hit::Side,
-                3 => Hit::Far,
+                3 => Hit::OutOfRange,
                 _ => Hit::Surface,
             };
             // Last bits show where a channel is about to round the other way.
@@ -282,7 +282,7 @@ fn hostile<W: Stock>(world: W, seed: u64) {
             tried.hit[0] = line.hit[i];
             for _ in 0..trials {
                 tried.surface[0] = word(match line.hit[i] {
-                    Hit::Surface => hostile_height::<W>(shader.ramp.exponent, &mut random),
+                    Hit::Surface => corner_case_height::<W>(shader.ramp.exponent, &mut random),
                     _ => random.word(W::WIDTH),
                 });
                 tried.slope_x[0] = word(random.word(W::WIDTH));
@@ -301,13 +301,13 @@ fn hostile<W: Stock>(world: W, seed: u64) {
 }
 
 #[test]
-fn hostile_items_narrow() {
-    hostile(Narrow, 3);
+fn corner_cases_in_narrow_words() {
+    corner_cases(Narrow, 3);
 }
 
 #[test]
-fn hostile_items_wide() {
-    hostile(Wide, 4);
+fn corner_cases_in_wide_words() {
+    corner_cases(Wide, 4);
 }
 
 /// Shade and albedo out of light and ramp alone, eleven cycles behind slopes and height.
@@ -320,13 +320,13 @@ fn parts<W: Stock>(world: W, seed: u64) {
     let [slope_x, slope_z, shade] = ["slope_x", "slope_z", "shade"].map(|name| light.port(name));
     let [surface, albedo] = ["surface", "albedo"].map(|name| ramp.port(name));
     for _ in 0..40 {
-        let shader = hostile_shader(world, &mut random);
+        let shader = corner_case_shader(world, &mut random);
         load_light(&mut light, shader.light.as_ref(), "load");
         load_ramp(&mut ramp, &shader.ramp, "load");
         let mut line = Line::new(&world, 0..ITEMS as u32);
         line.hit.fill(Hit::Surface);
         for i in 0..ITEMS {
-            line.surface[i] = word(hostile_height::<W>(shader.ramp.exponent, &mut random));
+            line.surface[i] = word(corner_case_height::<W>(shader.ramp.exponent, &mut random));
             line.slope_x[i] = word(random.word(W::WIDTH));
             line.slope_z[i] = word(random.word(W::WIDTH));
         }

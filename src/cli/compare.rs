@@ -15,7 +15,7 @@ pub struct Compare {
     /// The first frame or buffers.
     a: PathBuf,
 
-    /// The second.
+    /// The file it is compared with, of the same kind.
     b: PathBuf,
 
     /// Exit 1 if any value differs by more than this.

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::render::Units;
 use super::scene_args::SceneArgs;
 use super::{Stop, report};
-use crate::plan::Ground;
+use crate::plan::SurfacePlan;
 use crate::plan::units::UnitPlan;
 
 /// Say which units a scene needs, at which widths, and why the others are left out.
@@ -51,8 +51,8 @@ impl PlanCommand {
     pub fn run(&self) -> Result<(), Stop> {
         let planned = self.scene.load()?;
         let plan = &planned.plan;
-        let walk = match &plan.ground {
-            Ground::Terrain(walk) => Some(WalkRange {
+        let walk = match &plan.surface {
+            SurfacePlan::Terrain(walk) => Some(WalkRange {
                 last_index: walk.last,
                 reach_cells: walk.reach,
                 extreme_cells: walk.extreme,
@@ -60,7 +60,7 @@ impl PlanCommand {
                 datum: walk.scale.datum,
                 from_eye: walk.from_eye,
             }),
-            Ground::Plane(_) => None,
+            SurfacePlan::Plane(_) => None,
         };
         let planning = Planning {
             world: planned.world.name(),

@@ -30,7 +30,7 @@ pub struct Render {
     #[arg(short, long, value_name = "OUT.png")]
     output: Option<PathBuf>,
 
-    /// Who draws.
+    /// Engine that draws the frame.
     #[arg(long, value_enum, default_value_t = Engine::Fast)]
     engine: Engine,
 
@@ -173,7 +173,7 @@ impl Render {
 
 /// The plan's units in the world's formats.
 pub struct Units<'a> {
-    /// Scene and plan.
+    /// Scene and plan of the frame.
     pub planned: &'a Planned,
 }
 

@@ -15,7 +15,7 @@ use crate::scene::{
 use crate::setup::SetupError;
 use crate::word::real::Real;
 
-/// Scene and overrides.
+/// The scene of a command, and what changes it.
 #[derive(Debug, Args)]
 pub struct SceneArgs {
     /// A scene file (.toml), a height file (GeoTIFF, .hgt, .asc, PNG) to look over, or the name of
@@ -47,11 +47,11 @@ pub struct SceneArgs {
 
 /// A scene with its plan and world.
 pub struct Planned {
-    /// The scene.
+    /// The scene, with all overrides in it.
     pub scene: Scene,
-    /// Its plan.
+    /// What is fitted for it, in which words.
     pub plan: Plan,
-    /// Its fixed-point world.
+    /// The number world that the plan leads to.
     pub world: FixedWorld,
     /// Its memories, once they are loaded.
     memories: Memories,

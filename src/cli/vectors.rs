@@ -123,7 +123,7 @@ impl Vectors {
             Some((from, to)) => {
                 let (from, to) = (number(from)?, number(to)?);
                 if from >= to {
-                    return Err(bad("no line is from the one to the other".into()));
+                    return Err(bad("there is no line in this range".into()));
                 }
                 if to > lines {
                     return Err(bad(format!("the screen has {lines} lines")));

@@ -24,7 +24,7 @@ pub struct View {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=32))]
     scale: u32,
 
-    /// Show so many frames and end.
+    /// Show this many frames and end.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     frames: Option<u32>,
 

@@ -1,6 +1,6 @@
 //! The engines by name.
 
-/// Who draws the frame.
+/// What draws a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Engine {

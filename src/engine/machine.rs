@@ -7,7 +7,7 @@ use super::list::Engine;
 use super::memories::{Memories, Ready, SetUpTime};
 use super::world::FixedWorld;
 use crate::oracle::Oracle;
-use crate::plan::{Ground, Plan};
+use crate::plan::{Plan, SurfacePlan};
 use crate::scene::Scene;
 use crate::setup::{Setup, SetupError};
 use crate::word::Complete;
@@ -83,19 +83,19 @@ impl<'a> Machine<'a> {
         Ok(Self { scene, plan, world, memories, fixed, real, oracle })
     }
 
-    /// Its scene.
+    /// The scene that it draws.
     #[must_use]
     pub fn scene(&self) -> &'a Scene {
         self.scene
     }
 
-    /// Its plan.
+    /// The plan that it was set up by.
     #[must_use]
     pub fn plan(&self) -> &'a Plan {
         self.plan
     }
 
-    /// Its fixed-point world.
+    /// The fixed-point world that it is set up in.
     #[must_use]
     pub fn world(&self) -> FixedWorld {
         self.world
@@ -133,7 +133,7 @@ impl<'a> Machine<'a> {
         self.oracle.get_or_init(|| {
             let start = Instant::now();
             let mut oracle = Oracle::new(self.scene, &self.plan.screen);
-            if let Ground::Terrain(walk) = &self.plan.ground {
+            if let SurfacePlan::Terrain(walk) = &self.plan.surface {
                 oracle = oracle.with_reach_cells(walk.extreme);
             }
             (oracle, SetUpTime { coefficients: start.elapsed(), ..SetUpTime::default() })

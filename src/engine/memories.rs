@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::fast;
 use crate::fast::enter::Enterable;
-use crate::plan::{Ground, Plan};
+use crate::plan::{Plan, SurfacePlan};
 use crate::scene::Scene;
 use crate::setup::{Memory, Setup, SetupError};
 use crate::word::{Complete, World};
@@ -116,9 +116,9 @@ impl Memories {
         scene: &Scene,
         plan: &Plan,
     ) -> Result<Arc<Loaded<W>>, SetupError> {
-        let scale = match &plan.ground {
-            Ground::Terrain(walk) => Some(walk.scale),
-            Ground::Plane(_) => None,
+        let scale = match &plan.surface {
+            SurfacePlan::Terrain(walk) => Some(walk.scale),
+            SurfacePlan::Plane(_) => None,
         };
         let key = format!(
             "{world:?} {:?} {:?} {} {} {} {scale:?}",

@@ -1,4 +1,4 @@
-//! Who draws a frame, and the machine of a scene: set up once behind one type for every number
+//! The engines that draw a frame, and the machine of a scene: set up once behind one type for every number
 //! world, to be drawn whole or in parts by any engine.
 //!
 //! What studies ask of a machine (errors, cost, explanations) they add to it themselves, so that

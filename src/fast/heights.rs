@@ -79,7 +79,7 @@ pub fn weight<W: Packed, S: Simd>(
     let kernel = lanes!(lane => weights.weight.at(entries[lane]));
     let kernel = i32x16::simd_from(land.simd, kernel);
     match land.surface.form {
-        Form::Blend(shift) => hat + shifted_toward_zero(kernel - hat, shift),
+        Form::TowardHat(shift) => hat + shifted_toward_zero(kernel - hat, shift),
         Form::Plain | Form::Stretch | Form::Hat => kernel,
     }
 }
@@ -96,7 +96,7 @@ pub fn slope<W: Packed, S: Simd>(
     let kernel = i32x16::simd_from(land.simd, kernel);
     match land.surface.form {
         // The hat falls with slope one.
-        Form::Blend(shift) => shifted_toward_zero(kernel + one, shift) - one,
+        Form::TowardHat(shift) => shifted_toward_zero(kernel + one, shift) - one,
         Form::Plain | Form::Stretch | Form::Hat => kernel,
     }
 }

@@ -11,13 +11,13 @@ use crate::word::World;
 
 /// The map, and the units whose work packets do.
 pub struct Land<'a, W: World, S> {
-    /// SIMD level.
+    /// SIMD level of this computer.
     pub simd: S,
-    /// The machine's stepper.
+    /// The machine's stepper: coefficients of the walk.
     pub stepper: &'a Stepper<W>,
-    /// The machine's interpolator.
+    /// The machine's interpolator: form and formats of the surface.
     pub surface: &'a Interpolator<W>,
-    /// The map.
+    /// The copy of the map that packets read.
     pub map: &'a Map<W>,
 }
 

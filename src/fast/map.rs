@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::cells::Cells;
 use super::maxima::Maxima;
-use crate::plan::{Ground, Plan};
+use crate::plan::{Plan, SurfacePlan};
 use crate::scene::{Kernel, Scene};
 use crate::setup::{Memory, kernel};
 use crate::unit::height_memory::{Edge, HeightMemory};
@@ -23,7 +23,7 @@ const ROUNDINGS: f64 = 1.0 / (1 << 18) as f64;
 pub struct Map<W: World> {
     /// Highest nodes of blocks.
     pub(super) maxima: Maxima,
-    /// Nodes.
+    /// Heights of nodes, in pairs of rows.
     pub(super) cells: Cells<W::Height>,
     /// Weights, where the machine has a kernel ROM.
     pub(super) weights: Option<Weights>,
@@ -48,9 +48,9 @@ pub(super) struct Bend {
 pub(super) struct Weights {
     /// Entries per unit, as a power of two.
     pub log2: u32,
-    /// Weights.
+    /// Weights of the kernel, by entry.
     pub weight: MaskedTable,
-    /// Slopes.
+    /// Derivatives of the weights, by entry.
     pub slope: MaskedTable,
 }
 
@@ -84,7 +84,9 @@ impl<W: Open> Map<W> {
     /// skip, where blocks would meet at a seam, over holes that are no cells of the map, and where
     /// products of heights with weights need more than 64 bits.
     pub fn new(world: &W, scene: &Scene, plan: &Plan, memory: Option<&Memory<W>>) -> Option<Self> {
-        let (Ground::Terrain(walk), Some(memory)) = (&plan.ground, memory) else { return None };
+        let (SurfacePlan::Terrain(walk), Some(memory)) = (&plan.surface, memory) else {
+            return None;
+        };
         let (heights, form) = (&*memory.heights, memory.form);
         let point = world.fixed(Register::Node)?.point;
         let cells = match heights.edge() {
@@ -125,12 +127,12 @@ fn maxima<T: Readout>(heights: &HeightMemory<T>, top: i32, form: Form, point: u3
     Maxima::new(&heights.with_words(coarse), i32::from(form == Form::Stretch), places)
 }
 
-/// Straightness of a weight over 2×2 nodes (equation 33); its blend's shift is a factor on what the
+/// Straightness of a weight over 2×2 nodes (equation 33); deformation 2 has a factor on what the
 /// kernel differs from the hat by.
 fn bend(kernel: &Kernel, form: Form) -> Bend {
     let share = match form {
         Form::Hat => 0.0,
-        Form::Blend(shift) => libm::exp2(-f64::from(shift)),
+        Form::TowardHat(shift) => libm::exp2(-f64::from(shift)),
         Form::Plain | Form::Stretch => 1.0,
     };
     let steepest = 1.0 + share * (kernel::steepest(kernel.shape) - 1.0);

@@ -40,7 +40,7 @@ pub fn draw<W: Packed, S: Simd>(
     let land = Land { simd, stepper, surface, map };
     run(&land, lines);
     for line in lines {
-        // Work is not counted here: trials are the processor's.
+        // Work is not counted here: skip tests are the processor's.
         line.work.fill(Work::default());
         shade::run(&land, &units.shader, line);
     }
@@ -71,7 +71,7 @@ fn march<W: Packed, S: Simd>(land: &Land<'_, W, S>, tile: &mut Tile<W, S>) {
         while any_walks(tile) {
             for rays in &mut *tile {
                 if rays.walks.any_true() {
-                    trial(land, rays);
+                    visit(land, rays);
                 }
             }
         }
@@ -81,7 +81,7 @@ fn march<W: Packed, S: Simd>(land: &Land<'_, W, S>, tile: &mut Tile<W, S>) {
 
 /// One block of every walking ray: passed, or looked at more closely.
 #[inline(always)]
-fn trial<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
+fn visit<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &mut Rays<W, S>) {
     let (stepper, maxima) = (land.stepper, &land.map.maxima);
     let [x, y, z] = rays.place;
     let [dx, dy, dz] = rays.step;

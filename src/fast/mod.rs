@@ -121,7 +121,7 @@ pub fn map<W: Enterable>(
 /// What the fast engine draws from.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a, W: World> {
-    /// The machine's registers.
+    /// The machine's coefficients and memories.
     pub setup: &'a Setup<W>,
     /// The map as packets read it; rays are drawn one by one without.
     pub map: Option<&'a Map<W>>,

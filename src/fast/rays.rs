@@ -23,14 +23,14 @@ pub const PACKETS: usize = 4;
 pub type Tile<W, S> = [Rays<W, S>; PACKETS];
 
 /// Outcomes by number.
-const OUTCOMES: [Hit; 4] = [Hit::Sky, Hit::Surface, Hit::Side, Hit::Far];
+const OUTCOMES: [Hit; 4] = [Hit::Sky, Hit::Surface, Hit::Side, Hit::OutOfRange];
 
 /// A packet of rays, component by component.
 #[derive(Clone, Copy)]
 pub struct Rays<W: Packed, S: Simd> {
     /// The first place that has not been tested: x, y, z.
     pub place: [W::Words<S>; 3],
-    /// The step.
+    /// ΔP of each ray: x, y, z.
     pub step: [W::Words<S>; 3],
     /// Index of the sample at that place.
     pub index: u32x16<S>,
@@ -59,7 +59,7 @@ pub struct Rays<W: Packed, S: Simd> {
 }
 
 impl<W: Packed, S: Simd> Rays<W, S> {
-    /// No rays.
+    /// A packet in which no ray walks.
     #[inline(always)]
     pub fn idle(simd: S) -> Self {
         let nowhere = [W::Words::splat(simd, W::Int::default()); 3];
@@ -104,7 +104,7 @@ impl<W: Packed, S: Simd> Rays<W, S> {
         }
         let entries = i32x16::simd_from(simd, entries);
         let met = entries.simd_eq(Entry::Met as i32);
-        let far = entries.simd_eq(Entry::Far as i32);
+        let beyond = entries.simd_eq(Entry::OutOfRange as i32);
         let mask = |flag: bool| mask32x16::simd_from(simd, flag);
         let number = |number: i32| i32x16::simd_from(simd, number);
         let splat = |word: W::Int| W::Words::splat(simd, word);
@@ -137,7 +137,7 @@ impl<W: Packed, S: Simd> Rays<W, S> {
         let longest = [longest::<W, S>(dx, met), longest::<W, S>(dz, met)];
         self.place = place;
         self.step = [dx, dy, dz];
-        self.outcome = far.select(number(stepper.beyond as i32), number(Hit::Sky as i32));
+        self.outcome = beyond.select(number(stepper.beyond as i32), number(Hit::Sky as i32));
         self.within = within;
         self.rises = !dy.less(none);
         self.falls = mask(stepper.sides) & !none.less(dy);
@@ -150,7 +150,7 @@ impl<W: Packed, S: Simd> Rays<W, S> {
         self.walks = met & !fallen;
         self.end_walks(land);
         if stepper.last == 0 {
-            self.outcome = self.walks.select(number(Hit::Far as i32), self.outcome);
+            self.outcome = self.walks.select(number(Hit::OutOfRange as i32), self.outcome);
             self.walks = mask(false);
         }
         self.advance(u32x16::simd_from(simd, 1));
@@ -170,7 +170,7 @@ impl<W: Packed, S: Simd> Rays<W, S> {
         }
     }
 
-    /// Moves the rays that walk so many samples on.
+    /// Moves the rays that walk this many samples on.
     #[inline(always)]
     pub fn skip(&mut self, steps: u32) {
         let simd = self.index.token();
@@ -178,7 +178,7 @@ impl<W: Packed, S: Simd> Rays<W, S> {
         self.advance(self.walks.select(u32x16::simd_from(simd, steps), none));
     }
 
-    /// Moves rays so many samples on.
+    /// Moves rays this many samples on.
     #[inline(always)]
     pub fn advance(&mut self, steps: u32x16<S>) {
         for (place, step) in self.place.iter_mut().zip(self.step) {
@@ -203,7 +203,7 @@ impl<W: Packed, S: Simd> Rays<W, S> {
                 // No stock world looks at the place of a decision.
                 let anywhere = Site::pixel(0, 0);
                 let over = stepper.is_over(last, stepper.heading(step, anywhere), anywhere);
-                self.outcome[lane] = if over { Hit::Sky } else { Hit::Far } as i32;
+                self.outcome[lane] = if over { Hit::Sky } else { Hit::OutOfRange } as i32;
             }
         }
         let [x, y, z] = self.place;

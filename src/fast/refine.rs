@@ -1,4 +1,4 @@
-//! Halvings of the last step of every ray that has hit, all rays of a packet at once.
+//! Bisection of the last step of every ray that has hit, all rays of a packet at once.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x16, mask32x16, u32x16};
@@ -8,7 +8,7 @@ use super::land::Land;
 use super::rays::{PACKETS, Rays, Tile};
 use super::words::{Packed, Words};
 use crate::frame::Hit;
-use crate::unit::stepper::HalvingRule;
+use crate::unit::stepper::BisectionRule;
 use crate::word::Lane as _;
 
 /// Moves rays that hit from their first sample under the surface to the place of the hit.
@@ -18,15 +18,15 @@ pub fn run<W: Packed, S: Simd>(land: &Land<'_, W, S>, tile: &mut Tile<W, S>) {
     let mut most = 0;
     for (search, rays) in searches.iter_mut().zip(&*tile) {
         if rays.hits.any_true() {
-            let (times, most_here) = halvings(land, rays);
+            let (times, most_here) = bisection_steps(land, rays);
             *search = Some(Refinement::new(land, rays, times));
             most = most_here.max(most);
         }
     }
-    for halving in 1..=most {
+    for round in 1..=most {
         for (search, rays) in searches.iter_mut().zip(&*tile) {
             if let Some(search) = search {
-                search.halve(land, rays, halving);
+                search.halve(land, rays, round);
             }
         }
     }
@@ -63,9 +63,9 @@ impl<W: Packed, S: Simd> Refinement<W, S> {
 
     /// Halves the interval between clear and met once more.
     #[inline(always)]
-    fn halve(&mut self, land: &Land<'_, W, S>, rays: &Rays<W, S>, halving: u32) {
+    fn halve(&mut self, land: &Land<'_, W, S>, rays: &Rays<W, S>, round: u32) {
         let ([x, y, z], [dx, dy, dz]) = (self.clear, rays.step);
-        let (x, y, z) = (x + dx.halved(halving), y + dy.halved(halving), z + dz.halved(halving));
+        let (x, y, z) = (x + dx.halved(round), y + dy.halved(round), z + dz.halved(round));
         let (i, j) = (x.cell(), z.cell());
         let (after, first) = (self.known.holds(i, j), self.before.holds(i, j));
         if (rays.hits & !(after | first)).any_true() {
@@ -77,7 +77,7 @@ impl<W: Packed, S: Simd> Refinement<W, S> {
             *node = W::Words::select(after, known, *node);
         }
         let under = y.less(heights(land, &nodes, x, z)) & land.inside(i, j);
-        let halves = self.times.simd_ge(halving);
+        let halves = self.times.simd_ge(round);
         for (axis, middle) in [x, y, z].into_iter().enumerate() {
             self.clear[axis] = W::Words::select(halves & !under, middle, self.clear[axis]);
             self.met[axis] = W::Words::select(halves & under, middle, self.met[axis]);
@@ -110,12 +110,15 @@ impl<W: Packed, S: Simd> Refinement<W, S> {
     }
 }
 
-/// Halvings of each ray, and the most of all: `Stepper::halvings_at`.
+/// Bisection steps of each ray, and the most of all: `Stepper::bisection_steps_at`.
 #[inline(always)]
-fn halvings<W: Packed, S: Simd>(land: &Land<'_, W, S>, rays: &Rays<W, S>) -> (u32x16<S>, u32) {
-    match land.stepper.halvings {
-        HalvingRule::Fixed(times) => (u32x16::simd_from(land.simd, times), times),
-        HalvingRule::Footprint { bias, cap } => {
+fn bisection_steps<W: Packed, S: Simd>(
+    land: &Land<'_, W, S>,
+    rays: &Rays<W, S>,
+) -> (u32x16<S>, u32) {
+    match land.stepper.bisection {
+        BisectionRule::Fixed(times) => (u32x16::simd_from(land.simd, times), times),
+        BisectionRule::Footprint { bias, cap } => {
             let eye = land.stepper.eye();
             let eye = [eye.x.int(), eye.y.int(), eye.z.int()];
             let mut away = rays.place;

@@ -21,7 +21,7 @@ const GAP_BITS: u32 = 20;
 /// No sample.
 const NONE: u32 = u32::MAX;
 
-/// A ray has at most so many samples in a cell: reciprocals end there.
+/// A ray has at most this many samples in a cell: reciprocals end there.
 const MOST_STEPS: u32 = 1 << 6;
 
 /// Rays that stand in a cell walk on behind it, or hit.
@@ -135,7 +135,7 @@ fn every<W: Packed, S: Simd>(land: &Land<'_, W, S>) -> bool {
     land.surface.form == Form::Stretch
 }
 
-/// Gaps between rays and surface, so many samples on.
+/// Gaps between rays and surface, this many samples on.
 #[inline(always)]
 fn gaps<W: Packed, S: Simd>(
     land: &Land<'_, W, S>,
@@ -201,7 +201,7 @@ impl<S: Simd> Slack<S> {
         Self { bend: signed(bend) + 1, error: signed(error) + 8 }
     }
 
-    /// Whether no sample hits between two samples so many steps apart, at and above the surface.
+    /// Whether no sample hits between two samples this many steps apart, at and above the surface.
     #[inline(always)]
     fn clears(&self, steps: u32x16<S>, gap_low: i32x16<S>, gap_high: i32x16<S>) -> mask32x16<S> {
         let (least, most) = (gap_low.min(gap_high), gap_low.max(gap_high));

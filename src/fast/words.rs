@@ -71,7 +71,7 @@ pub trait Words<S: Simd>: Copy + Add<Output = Self> + Sub<Output = Self> {
     fn after(self, step: Self, k: u32x16<S>) -> Self;
     /// Shifted right, rounded down.
     fn halved(self, times: u32) -> Self;
-    /// The same, so many times per lane.
+    /// The same, this many times per lane.
     fn halved_each(self, times: u32x16<S>) -> Self;
     /// Floor.
     fn cell(self) -> i32x16<S>;

@@ -124,7 +124,7 @@ element!(u32, U4, 1, 0, values => Scalars::U4(values));
 element!([u8; 3], U1, 3, [0; 3], values => Scalars::U1(values.as_flattened()));
 element!(Hit, U1, 1, Hit::Sky, values => Scalars::Hit(values));
 
-/// Who can give a buffer; each also gives what those before it give.
+/// Which engines give a buffer; each also gives what those before it give.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Giver {
     /// All engines and the oracle.
@@ -133,27 +133,27 @@ pub enum Giver {
     Processor,
 }
 
-/// A line of the table.
+/// A row of the table: one array of a frame.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
+pub struct BufferRow {
     /// Name of the array.
     pub name: &'static str,
     /// Type of its scalars.
     pub dtype: Dtype,
     /// Scalars of a pixel.
     pub components: usize,
-    /// Who gives it.
+    /// Which engines give it.
     pub giver: Giver,
     /// What it holds, with its unit.
     pub holds: &'static str,
 }
 
-impl Entry {
+impl BufferRow {
     const fn of<T: Element>(name: &'static str, giver: Giver, holds: &'static str) -> Self {
         Self { name, dtype: T::DTYPE, components: T::COMPONENTS, giver, holds }
     }
 
-    /// The array's axes for a frame of so many lines and columns.
+    /// The array's axes for a frame of this many lines and columns.
     #[must_use]
     pub fn shape(&self, lines: usize, columns: usize) -> Vec<usize> {
         let third = (self.components > 1).then_some(self.components);
@@ -185,7 +185,7 @@ macro_rules! table {
         }
 
         impl Buffers {
-            /// Room for so many pixels.
+            /// Room for this many pixels.
             #[must_use]
             pub fn with_room(pixels: usize) -> Self {
                 Self { $($name: Vec::with_capacity(pixels),)* }
@@ -215,17 +215,17 @@ macro_rules! table {
         const REQUESTED: usize = [$(stringify!($name)),*].len();
 
         /// All arrays of a frame, in the order of files.
-        pub static TABLE: [Entry; REQUESTED + 2] = [
-            Entry::of::<Hit>("hit", Giver::Engines, $hit),
-            $(Entry::of::<$type>(stringify!($name), Giver::$giver, $holds),)*
-            Entry::of::<[u8; 3]>("color", Giver::Engines, $color),
+        pub static TABLE: [BufferRow; REQUESTED + 2] = [
+            BufferRow::of::<Hit>("hit", Giver::Engines, $hit),
+            $(BufferRow::of::<$type>(stringify!($name), Giver::$giver, $holds),)*
+            BufferRow::of::<[u8; 3]>("color", Giver::Engines, $color),
         ];
     };
 }
 
 table! {
     always {
-        hit: "outcome: 0 sky, 1 surface, 2 side of the map or of a hole, 3 far: beyond the registers' range",
+        hit: "outcome: 0 sky, 1 surface, 2 side of the map or of a hole, 3 out of range: beyond the registers' range",
         color: "sRGB"
     }
     on request {
@@ -257,17 +257,17 @@ impl Pixel {
     }
 }
 
-/// docs/buffers.md.
+/// Text of docs/buffers.md.
 #[must_use]
 pub fn markdown() -> String {
     let mut out = String::from(
         "# Buffers\n\n\
          `render --buffers OUT.npz` writes numpy arrays of shape [lines, columns], or [lines, columns, 3], from\n\
-         the top left. Misses (sky, far) are NaN in floats and 0 in integers. This page is generated from\n\
+         the top left. Misses (sky, out of range) are NaN in floats and 0 in integers. This page is generated from\n\
          the table in `src/frame/buffers.rs`.\n\n\
          | array | type | given by | holds |\n|---|---|---|---|\n",
     );
-    for Entry { name, dtype, components, giver, holds } in &TABLE {
+    for BufferRow { name, dtype, components, giver, holds } in &TABLE {
         let dtype = &dtype.name()[1..];
         let times = if *components > 1 { format!(" ×{components}") } else { String::new() };
         let giver = match giver {

@@ -12,7 +12,7 @@ pub enum Hit {
     /// The ray enters the map below ground: it meets the side of the map.
     Side = 2,
     /// The ray meets the ground beyond the registers' range, or its walk ended undecided.
-    Far = 3,
+    OutOfRange = 3,
 }
 
 impl Hit {
@@ -23,7 +23,7 @@ impl Hit {
             Self::Sky => "sky",
             Self::Surface => "surface",
             Self::Side => "side",
-            Self::Far => "far",
+            Self::OutOfRange => "out of range",
         }
     }
 }

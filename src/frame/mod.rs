@@ -3,7 +3,7 @@
 mod buffers;
 mod hit;
 
-pub use buffers::{Buffers, Dtype, Element, Entry, Giver, Pixel, Scalars, TABLE, markdown};
+pub use buffers::{BufferRow, Buffers, Dtype, Element, Giver, Pixel, Scalars, TABLE, markdown};
 pub use hit::Hit;
 
 /// One frame, or some of its lines, line by line from the top, column by column from the left.
@@ -22,7 +22,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Room for so many pixels, none drawn.
+    /// Room for this many pixels, none drawn.
     #[must_use]
     pub fn with_room(columns: usize, lines: usize, buffers: bool) -> Self {
         let pixels = columns * lines;
@@ -50,7 +50,7 @@ impl Frame {
     }
 
     /// All arrays that the frame holds, in the order of [`TABLE`].
-    pub fn arrays(&self) -> impl Iterator<Item = (&'static Entry, Scalars<'_>)> {
+    pub fn arrays(&self) -> impl Iterator<Item = (&'static BufferRow, Scalars<'_>)> {
         let buffers = self.buffers.as_ref().map(Buffers::scalars);
         let hit = Hit::scalars(&self.hit);
         let color = <[u8; 3]>::scalars(&self.color);
@@ -59,9 +59,9 @@ impl Frame {
             None => [None; _],
         };
         let all = std::iter::once(Some(hit)).chain(requested).chain([Some(color)]);
-        TABLE.iter().zip(all).filter_map(|(entry, scalars)| {
+        TABLE.iter().zip(all).filter_map(|(row, scalars)| {
             let scalars = scalars?;
-            (entry.giver == Giver::Engines || !scalars.is_empty()).then_some((entry, scalars))
+            (row.giver == Giver::Engines || !scalars.is_empty()).then_some((row, scalars))
         })
     }
 }

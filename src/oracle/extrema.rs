@@ -17,13 +17,13 @@ pub struct Axis {
 /// A run of patches, as indices of its first patch and of the first patch behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    /// First patch.
+    /// Index of the first patch.
     pub first: i64,
     /// First patch behind the run.
     pub end: i64,
 }
 
-/// Farther than any walk: the end of a run that never ends.
+/// Farther than any traversal: the end of a run that never ends.
 const OPEN: i64 = 1 << 48;
 
 impl Axis {
@@ -94,9 +94,9 @@ pub struct Extrema {
 /// Where a block lies and how low and high the surface gets in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
-    /// Patches in x.
+    /// Indices of its patches in x.
     pub x: Span,
-    /// Patches in z.
+    /// Indices of its patches in z.
     pub z: Span,
     /// Lowest and highest surface height, scene units.
     pub range: (f64, f64),

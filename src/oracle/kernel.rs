@@ -24,7 +24,7 @@ impl Finite {
         let share = match kernel.deformation {
             Deformation::None | Deformation::Stretch => 1.0,
             // Beyond the exponents of f64 the share is zero and the function is the hat.
-            Deformation::Blend { weight_shift } => {
+            Deformation::TowardHat { weight_shift } => {
                 0.5f64.powi(i32::try_from(weight_shift).unwrap_or(i32::MAX))
             }
         };

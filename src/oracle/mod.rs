@@ -2,14 +2,14 @@
 //!
 //! It shares the scene with the processor and nothing else, so that the two can be compared.
 //! Each pixel stands for itself: its ray is computed from its line and column, and the first
-//! crossing of the surface is found by a walk that cannot jump over one (see [`walk`]).
+//! crossing of the surface is found by a traversal that cannot jump over one (see [`traversal`]).
 //!
 //! Lines and columns are continuous numbers, whole at the pixel centres.
 
 pub mod camera;
 mod draw;
 pub mod extrema;
-pub mod ground;
+pub mod height_field;
 pub mod kernel;
 pub mod outcome;
 pub mod patch;
@@ -17,14 +17,14 @@ pub mod plane;
 pub mod shade;
 #[cfg(test)]
 mod tests;
-pub mod walk;
+pub mod traversal;
 
 use glam::{DMat3, DVec3};
 
 use crate::frame::Hit;
 use crate::scene::{Colors, Light, Plane, Scene, Screen, Surface};
 use camera::{Ray, View};
-use ground::Ground;
+use height_field::HeightField;
 
 /// How far a ray is followed over a map without end, in cells, unless told otherwise.
 pub const REACH_CELLS: f64 = 32_768.0;
@@ -46,18 +46,18 @@ pub struct Oracle {
 /// What the rays meet.
 #[derive(Clone, Debug)]
 enum Seen {
-    Terrain(Box<Ground>),
+    Terrain(Box<HeightField>),
     Plane(Plane),
 }
 
 /// What a pixel sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sighting {
-    /// Outcome.
+    /// What the pixel sees, or why nothing.
     pub hit: Hit,
     /// λ of `r_p = r_h + λ V`; NaN on a miss.
     pub lambda: f64,
-    /// Ground point, scene units; y is the height of the surface at (x, z), which for a side of
+    /// HeightField point, scene units; y is the height of the surface at (x, z), which for a side of
     /// the map is its rim above the point seen. NaN on a miss.
     pub point: DVec3,
     /// Unit normal of the surface at (x, z); for a plane, the plane's own. NaN on a miss.
@@ -79,7 +79,7 @@ impl Oracle {
             lines: screen.lines,
             seen: match &scene.surface {
                 Surface::Terrain(terrain) => {
-                    Seen::Terrain(Box::new(Ground::new(terrain, scene.kernel)))
+                    Seen::Terrain(Box::new(HeightField::new(terrain, scene.kernel)))
                 }
                 Surface::Plane(plane) => Seen::Plane(plane.clone()),
             },
@@ -91,7 +91,7 @@ impl Oracle {
     }
 
     /// Follow rays over a map without end as far as `reach_cells` from the eye, measured along the
-    /// axis on which the ray moves most; what lies beyond is [`Hit::Far`].
+    /// axis on which the ray moves most; what lies beyond is [`Hit::OutOfRange`].
     #[must_use]
     pub fn with_reach_cells(mut self, reach_cells: f64) -> Self {
         self.reach_cells = reach_cells;
@@ -190,7 +190,7 @@ impl Oracle {
         }
     }
 
-    fn sight_terrain(&self, ground: &Ground, ray: &Ray) -> Sighting {
+    fn sight_terrain(&self, ground: &HeightField, ray: &Ray) -> Sighting {
         let outcome = outcome::first_entry(ground, ray, self.reach_cells);
         if outcome.behind.is_none() {
             return self.miss(outcome.hit, outcome.tangent);

@@ -4,8 +4,8 @@
 //! y < surface(x, z).
 
 use super::camera::Ray;
-use super::ground::Ground;
-use super::walk::{Track, Walk};
+use super::height_field::HeightField;
+use super::traversal::{Track, Traversal};
 use crate::frame::Hit;
 use crate::scene::Outside;
 
@@ -20,8 +20,8 @@ pub struct Outcome<'a> {
     pub patch: (i64, i64),
     /// The ray came closer to the surface than rounding can tell.
     pub tangent: bool,
-    /// The walk, behind the hit and below the surface; `None` on a miss.
-    pub behind: Option<Walk<'a>>,
+    /// The traversal, behind the hit and below the surface; `None` on a miss.
+    pub behind: Option<Traversal<'a>>,
 }
 
 impl Outcome<'_> {
@@ -30,12 +30,12 @@ impl Outcome<'_> {
     }
 }
 
-/// The first entry of a ray into the solid for λ > 0. On a map that goes on for ever the walk ends
+/// The first entry of a ray into the solid for λ > 0. On a map that goes on for ever the traversal ends
 /// `reach_cells` from the eye, along the axis on which the ray moves most.
 ///
 /// An eye under the ground meets the surface at λ = 0.
 #[must_use]
-pub fn first_entry<'a>(ground: &'a Ground, ray: &Ray, reach_cells: f64) -> Outcome<'a> {
+pub fn first_entry<'a>(ground: &'a HeightField, ray: &Ray, reach_cells: f64) -> Outcome<'a> {
     let track = Track::new(ground, ray);
     let (low, high) = ground.range();
     let rise = track.step()[1];
@@ -59,7 +59,7 @@ pub fn first_entry<'a>(ground: &'a Ground, ray: &Ray, reach_cells: f64) -> Outco
             lambda: from,
             patch,
             tangent: false,
-            behind: Some(Walk::new(ground, track, from, to, false)),
+            behind: Some(Traversal::new(ground, track, from, to, false)),
         };
     }
 
@@ -75,9 +75,9 @@ pub fn first_entry<'a>(ground: &'a Ground, ray: &Ray, reach_cells: f64) -> Outco
     };
     let mut tangent = false;
     if start < end && (rise < 0.0 || y < high) {
-        let mut walk = Walk::new(ground, track, start, end, true);
-        let crossing = walk.next_crossing();
-        tangent = walk.touches() > 0;
+        let mut traversal = Traversal::new(ground, track, start, end, true);
+        let crossing = traversal.next_crossing();
+        tangent = traversal.touches() > 0;
         if let Some(crossing) = crossing {
             let hit = if crossing.side { Hit::Side } else { Hit::Surface };
             if crossing.side && is_below_base(ground, track.height(crossing.lambda), rise) {
@@ -88,46 +88,46 @@ pub fn first_entry<'a>(ground: &'a Ground, ray: &Ray, reach_cells: f64) -> Outco
                 lambda: crossing.lambda,
                 patch: crossing.patch,
                 tangent,
-                behind: Some(walk),
+                behind: Some(traversal),
             };
         }
     }
     let rises_clear = if rise > 0.0 { top <= to } else { rise == 0.0 && y >= high };
     let falls_clear = rise < 0.0 && track.reaches(1, ground.base()) <= to;
-    let hit = if ends || rises_clear || falls_clear { Hit::Sky } else { Hit::Far };
+    let hit = if ends || rises_clear || falls_clear { Hit::Sky } else { Hit::OutOfRange };
     Outcome::miss(hit, tangent)
 }
 
 /// Whether a ray out of the ground can meet no side any more: it is below the base and does not
 /// rise.
-fn is_below_base(ground: &Ground, y: f64, rise: f64) -> bool {
+fn is_below_base(ground: &HeightField, y: f64, rise: f64) -> bool {
     rise <= 0.0 && y < ground.base()
 }
 
 /// How often a ray goes into the solid or out of it between two λ: crossings of the surface,
 /// of the sides of the map, and contacts closer than rounding can tell.
 #[must_use]
-pub fn count_crossings(ground: &Ground, ray: &Ray, from: f64, to: f64) -> usize {
+pub fn count_crossings(ground: &HeightField, ray: &Ray, from: f64, to: f64) -> usize {
     let track = Track::new(ground, ray);
     let Some((start, end)) = over_domain(ground, &track, from, to) else {
         return 0;
     };
     let inside = is_inside(ground, &track, start);
     let mut count = usize::from(inside && start > from);
-    let mut walk = Walk::new(ground, track, start, end, !inside);
-    while walk.next_crossing().is_some() {
+    let mut traversal = Traversal::new(ground, track, start, end, !inside);
+    while traversal.next_crossing().is_some() {
         count += 1;
     }
-    count + walk.touches() + usize::from(!walk.above() && end < to)
+    count + traversal.touches() + usize::from(!traversal.above() && end < to)
 }
 
 /// Whether the hit of the ray and its point at another λ lie on one sheet of the surface: no
 /// crossing lies between them other than the hit itself. A point somewhat behind the surface, but
 /// not through to the other side of the ground, is on the same sheet.
 #[must_use]
-pub fn is_same_sheet(ground: &Ground, ray: &Ray, reach_cells: f64, other: f64) -> bool {
+pub fn is_same_sheet(ground: &HeightField, ray: &Ray, reach_cells: f64, other: f64) -> bool {
     let outcome = first_entry(ground, ray, reach_cells);
-    let Some(walk) = outcome.behind else {
+    let Some(traversal) = outcome.behind else {
         return false;
     };
     if !other.is_finite() || other < 0.0 {
@@ -140,8 +140,8 @@ pub fn is_same_sheet(ground: &Ground, ray: &Ray, reach_cells: f64, other: f64) -
     let track = Track::new(ground, ray);
     match over_domain(ground, &track, outcome.lambda, other) {
         Some((_, end)) if end >= other => {
-            let mut walk = walk.until(other);
-            walk.next_crossing().is_none() && walk.touches() == 0
+            let mut traversal = traversal.until(other);
+            traversal.next_crossing().is_none() && traversal.touches() == 0
         }
         _ => false,
     }
@@ -154,7 +154,7 @@ fn reach_lambda(track: &Track, reach_cells: f64) -> f64 {
 }
 
 /// The part of (from, to) over which a track is over the domain.
-fn over_domain(ground: &Ground, track: &Track, from: f64, to: f64) -> Option<(f64, f64)> {
+fn over_domain(ground: &HeightField, track: &Track, from: f64, to: f64) -> Option<(f64, f64)> {
     let mut part = (from, to);
     for (axis, (low, high)) in [0, 2].into_iter().zip(ground.domain()) {
         let place = track.at(0.0)[axis];
@@ -176,7 +176,7 @@ fn position(track: &Track, lambda: f64) -> (f64, f64) {
 }
 
 /// Whether y < surface at λ, where there is one.
-fn is_inside(ground: &Ground, track: &Track, lambda: f64) -> bool {
+fn is_inside(ground: &HeightField, track: &Track, lambda: f64) -> bool {
     let [px, y, pz] = track.at(lambda);
     let patch = ground.patch_index(px, pz);
     let local = |p: f64, index: i64| (p - index as f64).clamp(0.0, 1.0);

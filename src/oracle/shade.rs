@@ -70,7 +70,7 @@ pub fn outcome_color(colors: &Colors, hit: Hit) -> Option<[u8; 3]> {
         Hit::Surface => None,
         Hit::Sky => Some(colors.sky),
         Hit::Side => Some(colors.side),
-        Hit::Far => Some(colors.far),
+        Hit::OutOfRange => Some(colors.far),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Register formats of a machine: the stock ones of a word size, overridden by `[format]` and
 //! `--format`.
 
-use super::{Ground, Plan, PlanError, WordClass};
+use super::{Plan, PlanError, SurfacePlan, WordClass};
 use crate::scene::{FormatRequest, Registers, Scene};
 use crate::word::sweep::{Sweep, SweepFormat};
 use crate::word::{Class, Fixed, Overflow, Register, Rounding};
@@ -66,7 +66,7 @@ pub fn sweep(scene: &Scene, plan: &Plan) -> Result<Sweep, PlanError> {
     let least = scene.stepper.fineness + 1;
     for register in [Register::GroundX, Register::GroundZ, Register::RayY] {
         let point = formats.fixed(register).point;
-        if matches!(plan.ground, Ground::Terrain(_)) && point < least {
+        if matches!(plan.surface, SurfacePlan::Terrain(_)) && point < least {
             return Err(PlanError::Format {
                 name: register.name(),
                 reason: format!(

@@ -12,9 +12,9 @@ use crate::scene::{Angles, Attitude, Camera, Screen};
 pub struct LinearVector {
     /// At line 0, column 0.
     pub start: DVec3,
-    /// Per line.
+    /// Increment from a line to the next.
     pub per_line: DVec3,
-    /// Per column.
+    /// Increment from a column to the next.
     pub per_column: DVec3,
 }
 
@@ -49,9 +49,9 @@ impl LinearVector {
 pub struct LinearScalar {
     /// At line 0, column 0.
     pub start: f64,
-    /// Per line.
+    /// Increment from a line to the next.
     pub per_line: f64,
-    /// Per column.
+    /// Increment from a column to the next.
     pub per_column: f64,
 }
 

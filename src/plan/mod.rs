@@ -14,7 +14,7 @@ use crate::scene::{Deformation, KernelShape, Scene, Screen, StepperMode, Surface
 use crate::word::{Class, Fixed, Register};
 use geometry::Geometry;
 use proof::Finding;
-use ranges::WalkPlan;
+use ranges::TerrainPlan;
 
 pub use plane::PlanePlan;
 pub use units::UnitPlan;
@@ -27,9 +27,9 @@ pub enum PlanError {
     Range {
         /// Field of the scene.
         field: &'static str,
-        /// What is wrong.
+        /// Which range or size is out of bounds, with its number.
         reason: String,
-        /// What to do.
+        /// What the user can change.
         remedy: &'static str,
     },
     /// The eye is below the surface.
@@ -48,13 +48,13 @@ pub enum PlanError {
     UnknownScreen {
         /// What was asked for.
         asked: String,
-        /// What there is.
+        /// Names of the screens that there are.
         known: String,
     },
     /// A format that the machine cannot work with.
     #[error("format.{name}: {reason}")]
     Format {
-        /// Register or class.
+        /// Name of the register or class.
         name: &'static str,
         /// What is wrong and what to do.
         reason: String,
@@ -79,9 +79,9 @@ pub struct WordClass {
 const LARGEST_PLACE: f64 = 16_777_216.0;
 
 impl WordClass {
-    /// 32 bits.
+    /// 32 bits: places to 2048 cells, in steps of 2^-20.
     pub const NARROW: Self = Self { name: "narrow", width: 32, view_point: 30, ground_point: 20 };
-    /// 64 bits.
+    /// 64 bits: places to 2^24 cells, in steps of 2^-24.
     pub const WIDE: Self = Self { name: "wide", width: 64, view_point: 38, ground_point: 24 };
 
     /// Largest magnitude of a ground or height register that the plan allows.
@@ -99,12 +99,12 @@ impl WordClass {
     }
 }
 
-/// What the machine draws.
+/// The kind of surface that the machine draws, planned.
 #[derive(Clone, Debug)]
-pub enum Ground {
-    /// A height map.
-    Terrain(WalkPlan),
-    /// A plane.
+pub enum SurfacePlan {
+    /// A height map, walked over by rays.
+    Terrain(TerrainPlan),
+    /// A plane, met by one ratio.
     Plane(PlanePlan),
 }
 
@@ -113,15 +113,15 @@ pub enum Ground {
 pub struct Fitted {
     /// Divider, with the denominator's accumulator.
     pub divider: bool,
-    /// Skip pyramid.
+    /// Skip pyramid, with the adders of a jump.
     pub pyramid: bool,
-    /// Kernel ROM, with the hat blend.
+    /// Kernel ROM, with the weight toward the hat.
     pub kernel_rom: bool,
     /// The bits that mark nodes without data.
     pub void_bits: bool,
     /// Slope multipliers for cells that are not cubes of the height unit.
     pub slope_scale: bool,
-    /// Normal and light.
+    /// The light unit; without it shade is one.
     pub light: bool,
     /// Units of another kind of surface, idle.
     pub idle: bool,
@@ -130,15 +130,15 @@ pub struct Fitted {
 /// A scene compiled for one channel.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The channel's screen.
+    /// Screen whose pixels are drawn.
     pub screen: Screen,
-    /// Camera geometry.
+    /// View vectors of that screen in the ground frame.
     pub geometry: Geometry,
-    /// What is drawn.
-    pub ground: Ground,
+    /// The plan of its surface.
+    pub surface: SurfacePlan,
     /// Everything fitted, nothing pruned.
     pub full: bool,
-    /// What is fitted.
+    /// Which units are fitted.
     pub fitted: Fitted,
     /// Why these words, or how far the scene's own formats go.
     pub words_why: String,
@@ -163,12 +163,13 @@ impl Plan {
         .clone();
         let geometry = Geometry::new(&scene.camera, &screen);
         let (asked, formats) = (scene.machine.words, &scene.formats[..]);
-        let (ground, needs, finding) = match &scene.surface {
+        let (surface, needs, finding) = match &scene.surface {
             Surface::Terrain(terrain) => {
                 let fineness = scene.stepper.fineness;
-                let (walk, finding) = WalkPlan::new(terrain, &geometry, fineness, asked, formats)?;
+                let (walk, finding) =
+                    TerrainPlan::new(terrain, &geometry, fineness, asked, formats)?;
                 let needs = terrain_needs(scene, terrain, &walk);
-                (Ground::Terrain(walk), needs, finding)
+                (SurfacePlan::Terrain(walk), needs, finding)
             }
             Surface::Plane(plane) => {
                 let (plane, finding) = PlanePlan::new(plane, &geometry, asked, formats)?;
@@ -181,11 +182,11 @@ impl Plan {
                     light: false,
                     idle: false,
                 };
-                (Ground::Plane(plane), needs, finding)
+                (SurfacePlan::Plane(plane), needs, finding)
             }
         };
         let fitted = if full {
-            let terrain = matches!(ground, Ground::Terrain(_));
+            let terrain = matches!(surface, SurfacePlan::Terrain(_));
             Fitted {
                 divider: true,
                 pyramid: terrain && scene.stepper.mode == StepperMode::Skipping,
@@ -199,14 +200,14 @@ impl Plan {
             needs
         };
         let Finding { why: words_why, not_proved } = finding;
-        Ok(Self { screen, geometry, ground, full, fitted, words_why, not_proved })
+        Ok(Self { screen, geometry, surface, full, fitted, words_why, not_proved })
     }
 
     /// The word size of the stock world that the plan chose.
     pub fn words(&self) -> WordClass {
-        match &self.ground {
-            Ground::Terrain(walk) => walk.words,
-            Ground::Plane(plane) => plane.words,
+        match &self.surface {
+            SurfacePlan::Terrain(walk) => walk.words,
+            SurfacePlan::Plane(plane) => plane.words,
         }
     }
 }
@@ -221,7 +222,7 @@ pub(crate) fn kernel_is_hat(scene: &Scene, words: WordClass) -> bool {
     let last = if scene.formats.is_empty() { words.width - 1 } else { ALL_BITS };
     match kernel.deformation {
         Deformation::None => kernel.shape == KernelShape::Hat,
-        Deformation::Blend { weight_shift } => {
+        Deformation::TowardHat { weight_shift } => {
             kernel.shape == KernelShape::Hat || weight_shift >= last
         }
         Deformation::Stretch => false,
@@ -233,7 +234,7 @@ pub(crate) fn needs_kernel(scene: &Scene, constant: bool, holes: bool) -> bool {
     !constant || (holes && scene.kernel.deformation == Deformation::Stretch)
 }
 
-fn terrain_needs(scene: &Scene, terrain: &Terrain, walk: &WalkPlan) -> Fitted {
+fn terrain_needs(scene: &Scene, terrain: &Terrain, walk: &TerrainPlan) -> Fitted {
     let (lowest, highest) = terrain.range();
     let constant = lowest == highest;
     let unit = walk.scale.unit;

@@ -12,9 +12,9 @@ use crate::word::Register;
 /// Projection onto a plane.
 #[derive(Clone, Debug)]
 pub struct PlanePlan {
-    /// Word size.
+    /// Word size of its stock registers.
     pub words: WordClass,
-    /// Unit normal.
+    /// Unit normal of the plane, ground frame.
     pub normal: DVec3,
     /// Side of a square, scene units.
     pub checker: f64,
@@ -72,7 +72,7 @@ impl PlanePlan {
             WordSize::Wide => (wide()?, "asked for".to_owned()),
             WordSize::Auto => match stock(WordClass::NARROW, FINE) {
                 Ok(plan) => (plan, "positions and pixels fit".to_owned()),
-                Err(refusal) => (wide()?, format!("32 bits do not do: {}", refusal.reason)),
+                Err(refusal) => (wide()?, format!("32 bits are not enough: {}", refusal.reason)),
             },
         };
         Ok((plan, Finding::proved(why)))

@@ -10,7 +10,7 @@ use crate::word::Register;
 pub(super) struct Refusal {
     /// Field of the scene.
     pub(super) field: &'static str,
-    /// What is wrong.
+    /// Which range or rounding does not hold, with its number.
     pub(super) reason: String,
     /// What to do about it.
     pub(super) remedy: &'static str,
@@ -109,7 +109,7 @@ impl Formats<'_> {
     }
 }
 
-/// A length of which a pixel has so many: `1/115 pixel`, or `35.61 pixels` where it is not small.
+/// A length as a share of a pixel, given how many of it a pixel has: `1/115 pixel`, or `35.61 pixels` where it is not small.
 pub(super) fn in_pixels(per_pixel: f64) -> String {
     if per_pixel >= 10.0 {
         format!("1/{per_pixel:.0} pixel")

@@ -34,7 +34,7 @@ impl HeightScale {
 
 /// The walk of a ray over the map.
 #[derive(Clone, Debug)]
-pub struct WalkPlan {
+pub struct TerrainPlan {
     /// Word size of its stock registers.
     pub words: WordClass,
     /// How heights are loaded.
@@ -43,7 +43,7 @@ pub struct WalkPlan {
     pub lengths: DVec3,
     /// The eye in cells and height units.
     pub eye: DVec3,
-    /// The highest node.
+    /// The highest node, height units above the lowest.
     pub top: f64,
     /// Base of the block under the map.
     pub base: f64,
@@ -57,8 +57,8 @@ pub struct WalkPlan {
     pub range: u32,
     /// Largest magnitude a position register takes.
     pub extreme: f64,
-    /// Halvings at distance one.
-    pub halving_bias: i32,
+    /// Bisection steps at distance one.
+    pub bisection_bias: i32,
     needs: Needs,
 }
 
@@ -71,7 +71,7 @@ struct Needs {
     horizontal: f64,
     /// Largest magnitude of a ray's height.
     vertical: f64,
-    /// The relief with three bits to spare, for differences and slopes per cell.
+    /// The height range with three bits to spare, for differences and slopes per cell.
     heights: f64,
     /// Largest factor or slope on cells that are not squares of the height unit.
     steepest: f64,
@@ -82,10 +82,10 @@ struct Needs {
 }
 
 /// Eyes less than this above the highest node start their rays at the eye: the ratio of so thin a
-/// layer would have no bits.
+/// slab would have no bits.
 const THIN_LAYER: f64 = 1.0 / 256.0;
 
-impl WalkPlan {
+impl TerrainPlan {
     /// Proves a walk in the smaller word size that holds it, or says what is not proved of the
     /// scene's own formats. These do not change the walk: it is that of the stock words.
     ///
@@ -129,7 +129,7 @@ impl WalkPlan {
             (WordSize::Wide, _) => (stock(WordClass::WIDE)?.0, "asked for".to_owned()),
             (WordSize::Auto, Ok(found)) => found,
             (WordSize::Auto, Err(refusal)) => {
-                let why = format!("32 bits do not do: {}", refusal.reason);
+                let why = format!("32 bits are not enough: {}", refusal.reason);
                 (stock(WordClass::WIDE)?.0, why)
             }
         };
@@ -144,7 +144,7 @@ impl WalkPlan {
         let eye_z = geometry.eye.z / terrain.cell.y;
 
         let mut unit = (terrain.cell.x * terrain.cell.y).sqrt();
-        // The relief and its slopes (kernel slopes are at most 2) need room in the height words.
+        // The height range and its slopes (kernel slopes are at most 2) need room in the height words.
         while (highest - lowest) / unit * 8.0 > words.ground_limit() {
             unit *= 2.0;
         }
@@ -184,7 +184,8 @@ impl WalkPlan {
         let vertical = start_y.abs().max(base.abs()).max(eye_y.abs()) + 2.0 * walk + 2.0;
         // Step and distance lie along one ray, so their largest components are in the ratio of
         // their lengths: 2^-k · 2^-n <= 2^e · finest_angle / 32 (equation 22).
-        let halving_bias = libm::log2(32.0 / geometry.finest_angle).ceil() as i32 - fineness as i32;
+        let bisection_bias =
+            libm::log2(32.0 / geometry.finest_angle).ceil() as i32 - fineness as i32;
         Self {
             words,
             scale,
@@ -197,7 +198,7 @@ impl WalkPlan {
             reach,
             range,
             extreme: horizontal.max(vertical),
-            halving_bias,
+            bisection_bias,
             needs: Needs {
                 fineness,
                 horizontal,

@@ -3,18 +3,18 @@
 
 use serde::Serialize;
 
-use super::{Ground, Plan, kernel_is_hat, needs_kernel};
+use super::{Plan, SurfacePlan, kernel_is_hat, needs_kernel};
 use crate::scene::{Deformation, KernelShape, Scene, StepperMode, Surface};
 use crate::word::{Register, World};
 
 /// One unit of the plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UnitPlan {
-    /// Unit.
+    /// Name of the unit.
     pub name: &'static str,
     /// Whether the machine has it.
     pub fitted: bool,
-    /// Reason.
+    /// Why it is fitted or left out.
     pub why: String,
     /// Formats of its registers, name and format.
     pub widths: Vec<(String, String)>,
@@ -26,9 +26,9 @@ pub struct UnitPlan {
 pub fn units<W: World>(plan: &Plan, scene: &Scene, world: &W) -> Vec<UnitPlan> {
     let describe = Describe { plan, scene, world };
     let mut units = describe.projection();
-    units.extend(match &plan.ground {
-        Ground::Terrain(_) => describe.terrain(),
-        Ground::Plane(_) => describe.plane(),
+    units.extend(match &plan.surface {
+        SurfacePlan::Terrain(_) => describe.terrain(),
+        SurfacePlan::Plane(_) => describe.plane(),
     });
     units
 }
@@ -85,23 +85,23 @@ impl<W: World> Describe<'_, W> {
         let idle: Vec<_> =
             still.iter().filter(|(_, step)| *step == 0.0).map(|(name, _)| *name).collect();
         let mut why = "every scene: view vector by additions".to_owned();
-        if !idle.is_empty() && matches!(self.plan.ground, Ground::Terrain(_)) {
+        if !idle.is_empty() && matches!(self.plan.surface, SurfacePlan::Terrain(_)) {
             why += &format!("; no column adder for {} (increment zero)", idle.join(", "));
         }
-        let (needed, reason) = match &self.plan.ground {
-            Ground::Terrain(walk) if walk.from_eye => {
+        let (needed, reason) = match &self.plan.surface {
+            SurfacePlan::Terrain(walk) if walk.from_eye => {
                 (false, "the eye is below the highest node: rays start at the eye".to_owned())
             }
-            Ground::Terrain(_) => (
+            SurfacePlan::Terrain(_) => (
                 true,
                 "the eye is above the highest node: rays enter the slab under it by a ratio"
                     .to_owned(),
             ),
-            Ground::Plane(plane) if plane.numerator == 0.0 => (
+            SurfacePlan::Plane(plane) if plane.numerator == 0.0 => (
                 true,
                 "the eye lies in the plane, which is seen edge-on: nothing is met".to_owned(),
             ),
-            Ground::Plane(_) => (true, "plane coordinates are a ratio".to_owned()),
+            SurfacePlan::Plane(_) => (true, "plane coordinates are a ratio".to_owned()),
         };
         vec![
             self.unit("projector", true, true, why, &[R::ViewX, R::ViewY, R::ViewZ], ""),
@@ -167,7 +167,7 @@ impl<W: World> Describe<'_, W> {
                 fitted.kernel_rom,
                 kernel_why,
                 &[R::Weight, R::WeightSlope],
-                "the tables, two reads and the blend's additions per interpolation",
+                "the tables, two reads and the hat weight's additions per interpolation",
             ),
             self.unit(
                 "void_bits",
@@ -224,11 +224,11 @@ impl<W: World> Describe<'_, W> {
     }
 
     fn scene_is_square(&self) -> bool {
-        match &self.plan.ground {
-            Ground::Terrain(walk) => {
+        match &self.plan.surface {
+            SurfacePlan::Terrain(walk) => {
                 walk.lengths.x == walk.lengths.y && walk.lengths.z == walk.lengths.y
             }
-            Ground::Plane(_) => true,
+            SurfacePlan::Plane(_) => true,
         }
     }
 

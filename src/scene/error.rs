@@ -28,37 +28,37 @@ pub enum SceneError {
     Unreadable {
         /// The path as given.
         file: String,
-        /// Why.
+        /// What the system or the reader said.
         reason: String,
-        /// What to do.
+        /// What the user can do about it.
         remedy: String,
     },
     /// The scene file is not TOML.
     #[error("{place}: not valid TOML: {reason}; {remedy}")]
     Syntax {
-        /// Where.
+        /// Line and column, or the option, that it is about.
         place: Place,
         /// What the parser says.
         reason: String,
-        /// What to do.
+        /// What the user can do about it.
         remedy: String,
     },
     /// A field is unknown, missing, of the wrong type or out of range.
     #[error("{}: {reason}; {remedy}", at(place, field))]
     Field {
-        /// Where.
+        /// Line and column, or the option, that it is about.
         place: Place,
         /// Path of the field, as `--set` takes it: `camera.position`.
         field: String,
-        /// Why.
+        /// What is wrong with the value.
         reason: String,
-        /// What to do.
+        /// What the user can do about it.
         remedy: String,
     },
     /// The height map that a field names cannot be used.
     #[error("{}: {source}", at(place, field))]
     Map {
-        /// Where.
+        /// Line and column, or the option, that it is about.
         place: Place,
         /// Path of the field.
         field: String,
@@ -70,9 +70,9 @@ pub enum SceneError {
     Override {
         /// The option's path, or the whole option where it has none.
         option: String,
-        /// Why.
+        /// What the reader of the map said.
         reason: String,
-        /// What to do.
+        /// What the user can do about it.
         remedy: String,
     },
 }
@@ -84,7 +84,7 @@ pub enum Place {
     File {
         /// Path as given, or `builtin:NAME`.
         file: String,
-        /// From 1.
+        /// Line of the file, from 1.
         line: usize,
         /// In characters, from 1.
         column: usize,

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use super::error::{Place, SceneError, list, nearest};
 use super::maps::Maps;
 use super::shown::{shorten, shown};
-use super::tree::{Entry, Node, Origin, Value};
+use super::tree::{KeyValue, Node, Origin, Value};
 
 /// What is needed beside the values: names and texts of their origins, and where maps come from.
 pub(super) struct Context<'a> {
@@ -50,7 +50,7 @@ pub(super) struct Fields<'a> {
     context: &'a Context<'a>,
     path: String,
     origin: Origin,
-    entries: &'a [Entry],
+    entries: &'a [KeyValue],
 }
 
 impl<'a> Fields<'a> {
@@ -74,7 +74,7 @@ impl<'a> Fields<'a> {
         self.entries.iter().map(|entry| (entry.key.as_str(), self.field(entry)))
     }
 
-    fn field(&self, entry: &'a Entry) -> Field<'a> {
+    fn field(&self, entry: &'a KeyValue) -> Field<'a> {
         Field {
             context: self.context,
             path: join(&self.path, &entry.key),
@@ -107,9 +107,9 @@ impl<'a> Fields<'a> {
     pub(super) fn check_keys(
         &self,
         known: &[&str],
-        allow: impl Fn(&Entry) -> bool,
+        allow: impl Fn(&KeyValue) -> bool,
     ) -> Result<(), SceneError> {
-        let stray = |entry: &&Entry| !known.contains(&entry.key.as_str()) && !allow(entry);
+        let stray = |entry: &&KeyValue| !known.contains(&entry.key.as_str()) && !allow(entry);
         let Some(entry) = self.entries.iter().find(stray) else { return Ok(()) };
         let key = entry.key.as_str();
         let path = join(&self.path, key);
@@ -188,7 +188,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// A text.
+    /// The value as a text.
     pub(super) fn text(&self, expected: &str) -> Result<&'a str, SceneError> {
         match &self.node.value {
             Value::String(value) => Ok(value),

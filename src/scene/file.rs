@@ -28,7 +28,7 @@ pub struct Document<'a> {
     pub file: &'a str,
     /// Folder where relative paths in the scene start.
     pub folder: &'a Path,
-    /// TOML.
+    /// The text of the file, TOML.
     pub text: &'a str,
 }
 

@@ -202,7 +202,7 @@ impl Octave {
         self.height * self.noise(cos * x - sin * z, sin * x + cos * z)
     }
 
-    /// Gradient noise: a random slope at every point of the lattice, blended between four.
+    /// Gradient noise: a random slope at every point of the lattice, interpolated between four.
     fn noise(&self, x: f64, z: f64) -> f64 {
         let (floor_x, floor_z) = (x.floor(), z.floor());
         let (i, j) = (floor_x as i32, floor_z as i32);
@@ -288,7 +288,7 @@ mod tests {
             }
             libm::sqrt(sum / count)
         };
-        // The relief is 640 m.
+        // Heights range over 640 m.
         let (off, mean) = (far(&|i, j| large.sample(3 * i, 3 * j), 1), bend(&map, 1));
         assert!(off < mean, "{off} {mean}");
         let off = far(&|i, j| small.sample(i * 171 / 343, j * 171 / 343), 343);

@@ -47,7 +47,7 @@ pub enum Deformation {
     /// 1: `⅔ f(⅔x)` over 3×3 nodes.
     Stretch,
     /// 2: the hat plus `2^-weight_shift` of the difference to f, over 2×2 nodes.
-    Blend {
+    TowardHat {
         /// d in `a = 2^-d`.
         weight_shift: u32,
     },
@@ -67,7 +67,7 @@ impl From<DeformationKeys> for Deformation {
         match keys.deformation {
             0 => Self::None,
             1 => Self::Stretch,
-            _ => Self::Blend { weight_shift: keys.weight_shift },
+            _ => Self::TowardHat { weight_shift: keys.weight_shift },
         }
     }
 }
@@ -77,7 +77,7 @@ impl From<Deformation> for DeformationKeys {
         match deformation {
             Deformation::None => Self { deformation: 0, ..Self::default() },
             Deformation::Stretch => Self { deformation: 1, ..Self::default() },
-            Deformation::Blend { weight_shift } => Self { deformation: 2, weight_shift },
+            Deformation::TowardHat { weight_shift } => Self { deformation: 2, weight_shift },
         }
     }
 }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 pub use super::kind::{Key, Kind};
 pub use super::tables::{Section, sections};
 
-/// The page docs/scene-keys.md.
+/// Text of docs/scene-keys.md.
 pub fn markdown() -> String {
     let mut page = String::from(
         "# The keys of a scene file\n\n\

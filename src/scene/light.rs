@@ -6,7 +6,7 @@ use super::kind::Kind;
 use super::table::table;
 
 table! {
-    /// Light.
+    /// Direction towards the light, and what shines from everywhere.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Light {
         /// Towards the light, in the ground frame.

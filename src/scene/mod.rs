@@ -63,7 +63,7 @@ pub use load::load;
 pub use nodata::NoData;
 pub use plane::Plane;
 pub use screen::{Extent, Screen};
-pub use stepper::{Halvings, Stepper, StepperMode};
+pub use stepper::{Bisection, Stepper, StepperMode};
 pub use surface::Surface;
 pub use tables::Scene;
 pub use terrain::{Outside, Terrain};

@@ -175,7 +175,7 @@ mod tests {
             seed: u64,
         ) {
             let count = columns * rows;
-            let random = |at: usize| crate::word::format::mix(seed, at as u64);
+            let random = |at: usize| crate::word::format::hash(seed, at as u64);
             let mut samples: Vec<f32> = (0..count)
                 .map(|at| {
                     let void = ((random(at) % 1000) as f64) < 1000.0 * share;

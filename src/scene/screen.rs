@@ -21,7 +21,7 @@ pub const MAX_PIXELS: u64 = 1 << 26;
 /// One channel: a flat raster screen perpendicular to u.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Screen {
-    /// Channel name.
+    /// Name by which `--screen` asks for it.
     pub name: String,
     /// Pixels across.
     pub columns: u32,

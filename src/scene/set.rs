@@ -15,7 +15,7 @@ use toml::de::DeValue;
 
 use super::error::SceneError;
 use super::shown::shorten;
-use super::tree::{Entry, Node, Origin, Value};
+use super::tree::{KeyValue, Node, Origin, Value};
 
 /// No key of a scene lies deeper.
 const DEEPEST: usize = 8;
@@ -123,7 +123,7 @@ fn first_table(node: &mut Node) -> &mut Node {
 }
 
 /// The value under a key, an empty table (or array of one) where there was none.
-fn child<'a>(entries: &'a mut Vec<Entry>, key: &str, origin: Origin, top: bool) -> &'a mut Node {
+fn child<'a>(entries: &'a mut Vec<KeyValue>, key: &str, origin: Origin, top: bool) -> &'a mut Node {
     let at = entries.iter().position(|entry| entry.key == key).unwrap_or_else(|| {
         let table = Node { origin, value: Value::Table(Vec::new()) };
         let node = if top && TABLE_ARRAYS.contains(&key) {
@@ -131,7 +131,7 @@ fn child<'a>(entries: &'a mut Vec<Entry>, key: &str, origin: Origin, top: bool) 
         } else {
             table
         };
-        entries.push(Entry { key: key.to_owned(), origin, node });
+        entries.push(KeyValue { key: key.to_owned(), origin, node });
         entries.len() - 1
     });
     &mut entries[at].node

@@ -16,7 +16,7 @@ table! {
         fineness: u32 = 3, Kind::Whole(0..=6);
         /// Bisection steps after the first hit; "footprint": until a step is at most 1/32 of the
         /// pixel's footprint.
-        halvings: Halvings = Halvings::Footprint,
+        halvings: Bisection = Bisection::Footprint,
             Kind::WordOr(vec!["footprint"], Box::new(Kind::Whole(0..=20)));
     }
 }
@@ -33,14 +33,14 @@ words! {
 
 /// Number of bisection steps after the first hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Halvings {
+pub enum Bisection {
     /// Until a step is at most 1/32 of the pixel's footprint.
     Footprint,
     /// A fixed number, 0..=20.
     Fixed(u32),
 }
 
-impl Value for Halvings {
+impl Value for Bisection {
     fn read(field: &Field<'_>, kind: &Kind) -> Result<Self, SceneError> {
         word_or(field, kind, &[("footprint", Self::Footprint)], Self::Fixed)
     }

@@ -28,7 +28,7 @@ pub struct Scene {
     pub camera: Camera,
     /// One screen per channel, at least one.
     pub screens: Vec<Screen>,
-    /// What is seen.
+    /// What the rays meet: a height map or a plane.
     pub surface: Surface,
     /// The finite function that interpolates heights.
     pub kernel: Kernel,

@@ -36,7 +36,7 @@ pub struct Terrain {
     /// What nodes without data become, as asked for; `map` holds the outcome.
     pub nodata: NoData,
     /// Depth of the block under the lowest node whose sides are drawn, in scene units, positive.
-    /// A ray that falls below it outside the map or in a hole sees sky. `None`: a quarter of the relief, two
+    /// A ray that falls below it outside the map or in a hole sees sky. `None`: a quarter of the height range, two
     /// cells at least.
     pub base_depth: Option<f64>,
 }
@@ -108,7 +108,7 @@ table! {
         /// What nodes without data become: holes, the nearest sample, or this sample.
         nodata: NoData = NoData::Hole,
             Kind::WordOr(vec!["hole", "nearest"], Box::new(COORDINATE));
-        /// Depth of the block under the lowest node; left out, a quarter of the relief, two cells
+        /// Depth of the block under the lowest node; left out, a quarter of the height range, two cells
         /// at least.
         base_depth: Option<f64> = None, LENGTH;
     }

@@ -38,12 +38,12 @@ pub(super) enum Value {
     String(String),
     Datetime(String),
     Array(Vec<Node>),
-    Table(Vec<Entry>),
+    Table(Vec<KeyValue>),
 }
 
 /// A key of a table, in the order of the file, `--set` last.
 #[derive(Clone, Debug)]
-pub(super) struct Entry {
+pub(super) struct KeyValue {
     pub(super) key: String,
     /// Of the key; the node has its own.
     pub(super) origin: Origin,
@@ -99,12 +99,15 @@ impl Node {
 
 impl Value {
     fn table(table: DeTable<'_>, origin: &dyn Fn(usize) -> Origin) -> Self {
-        let mut entries: Vec<(usize, Entry)> = table
+        let mut entries: Vec<(usize, KeyValue)> = table
             .into_iter()
             .map(|(key, value)| {
                 let start = key.span().start;
                 let node = Node::new(value, origin);
-                (start, Entry { key: key.into_inner().into_owned(), origin: origin(start), node })
+                (
+                    start,
+                    KeyValue { key: key.into_inner().into_owned(), origin: origin(start), node },
+                )
             })
             .collect();
         // The library sorts by name; later register formats must win over earlier ones.

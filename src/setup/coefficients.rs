@@ -6,9 +6,9 @@ use super::SetupError;
 use super::memory::{Memory, load};
 use crate::frame::Hit;
 use crate::plan::geometry::{LinearScalar, LinearVector};
-use crate::plan::ranges::WalkPlan;
-use crate::plan::{Ground, Plan, PlanePlan};
-use crate::scene::{Colors, Halvings, Plane, RatioForm, Scene};
+use crate::plan::ranges::TerrainPlan;
+use crate::plan::{Plan, PlanePlan, SurfacePlan};
+use crate::scene::{Bisection, Colors, Plane, RatioForm, Scene};
 use crate::unit::checker::Checker;
 use crate::unit::divider::Divider;
 use crate::unit::interpolator::Interpolator;
@@ -18,7 +18,7 @@ use crate::unit::pixel::Pixel;
 use crate::unit::projector::{Linear, Projector};
 use crate::unit::ramp::{Ramp, Segment};
 use crate::unit::shader::Shader;
-use crate::unit::stepper::{HalvingRule, Stepper};
+use crate::unit::stepper::{BisectionRule, Stepper};
 use crate::word::{Dividing, Load, Open, Ratio, Register, Word, World};
 
 /// View vector and denominator as the projector accumulates them, scaled by powers of two.
@@ -49,14 +49,14 @@ impl Coefficients {
     pub fn new(plan: &Plan) -> Self {
         let geometry = &plan.geometry;
         // View in register units, denominator's G and F.
-        let (view, g, f) = match &plan.ground {
-            Ground::Terrain(walk) => {
+        let (view, g, f) = match &plan.surface {
+            SurfacePlan::Terrain(walk) => {
                 let view = geometry.view.scaled(walk.lengths.recip());
                 // The slab's top: n = y. Rays that start at the eye have no use for it.
                 let f = if walk.from_eye { -1.0 } else { walk.top - walk.eye.y };
                 (view, view.dot(DVec3::Y), f)
             }
-            Ground::Plane(plane) => {
+            SurfacePlan::Plane(plane) => {
                 let PlaneView { view, g } = plane_view(plan, plane);
                 (view, g, plane.numerator)
             }
@@ -96,7 +96,7 @@ impl Coefficients {
                 per_column: load(self.view.per_column)?,
             })
         };
-        let stepping = matches!(plan.ground, Ground::Terrain(_)) || plan.fitted.idle;
+        let stepping = matches!(plan.surface, SurfacePlan::Terrain(_)) || plan.fitted.idle;
         let denominator = if plan.fitted.divider {
             let format = world.view(Register::Denominator);
             let load = |value| load::<W::View>(value, Register::Denominator, format);
@@ -129,9 +129,9 @@ impl Coefficients {
         if !plan.fitted.divider {
             return Ok(None);
         }
-        let (x, z, range) = match &plan.ground {
-            Ground::Terrain(walk) => (walk.eye.x, walk.eye.z, walk.range),
-            Ground::Plane(plane) => (plane.eye[0], plane.eye[1], plane.range),
+        let (x, z, range) = match &plan.surface {
+            SurfacePlan::Terrain(walk) => (walk.eye.x, walk.eye.z, walk.range),
+            SurfacePlan::Plane(plane) => (plane.eye[0], plane.eye[1], plane.range),
         };
         let exponent = self.denominator_exponent - self.view_exponent;
         let range = quotient_range(world, range);
@@ -184,11 +184,11 @@ fn plane_view(plan: &Plan, plane: &PlanePlan) -> PlaneView {
     }
 }
 
-/// The stepper's registers.
+/// The stepper's coefficients, as words of a world.
 pub(super) fn stepper<W: Open>(
     world: &W,
     scene: &Scene,
-    walk: &WalkPlan,
+    walk: &TerrainPlan,
     memory: &Memory<W>,
     surface: Interpolator<W>,
 ) -> Result<Stepper<W>, SetupError> {
@@ -196,7 +196,7 @@ pub(super) fn stepper<W: Open>(
     let height = |value| load(value, Register::RayY, world.height(Register::RayY));
     let heights = &memory.heights;
     let ends = heights.edge() == crate::unit::height_memory::Edge::Ends;
-    // The real world halves as often as the stock one of this plan.
+    // The real world bisects as often as the stock one of this plan.
     let point = world.fixed(Register::GroundX).map_or(walk.words.ground_point, |f| f.point);
     Ok(Stepper {
         from_eye: walk.from_eye,
@@ -207,10 +207,10 @@ pub(super) fn stepper<W: Open>(
         base: height(walk.base)?,
         fineness: scene.stepper.fineness,
         last: walk.last,
-        halvings: match scene.stepper.halvings {
-            Halvings::Fixed(times) => HalvingRule::Fixed(times),
-            Halvings::Footprint => HalvingRule::Footprint {
-                bias: walk.halving_bias,
+        bisection: match scene.stepper.halvings {
+            Bisection::Fixed(times) => BisectionRule::Fixed(times),
+            Bisection::Footprint => BisectionRule::Footprint {
+                bias: walk.bisection_bias,
                 // A step keeps a bit.
                 cap: point.saturating_sub(scene.stepper.fineness + 1),
             },
@@ -219,7 +219,7 @@ pub(super) fn stepper<W: Open>(
         beyond: if ends && quotient_range(world, walk.range) == walk.range {
             Hit::Sky
         } else {
-            Hit::Far
+            Hit::OutOfRange
         },
         sides: ends || heights.has_voids(),
         extent: ends.then(|| (heights.columns(), heights.rows())),
@@ -230,11 +230,11 @@ pub(super) fn stepper<W: Open>(
     })
 }
 
-/// The interpolator's registers.
+/// The interpolator's coefficients, as words of a world.
 pub(super) fn interpolator<W: Open>(
     world: &W,
     plan: &Plan,
-    walk: &WalkPlan,
+    walk: &TerrainPlan,
     memory: &Memory<W>,
 ) -> Result<Interpolator<W>, SetupError> {
     let format = world.weight(Register::Weight);
@@ -264,7 +264,7 @@ pub(super) fn shader<W: Open>(
     world: &W,
     scene: &Scene,
     plan: &Plan,
-    walk: &WalkPlan,
+    walk: &TerrainPlan,
     memory: &Memory<W>,
 ) -> Result<Shader<W>, SetupError> {
     let tone = |value, register: Register| load(value, register, world.tone(register));
@@ -308,7 +308,7 @@ pub(super) fn shader<W: Open>(
     })
 }
 
-/// The checker's registers.
+/// The checker's coefficients, as words of a world.
 pub(super) fn checker<W: Open>(
     world: &W,
     scene: &Scene,

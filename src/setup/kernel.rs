@@ -66,7 +66,7 @@ pub fn stretched(shape: KernelShape, t: f64) -> f64 {
     meeting(shape) * (2.0 / 3.0) * value(shape, 2.0 / 3.0 * t)
 }
 
-/// Its derivative.
+/// Derivative of [`stretched`] by t.
 pub fn stretched_slope(shape: KernelShape, t: f64) -> f64 {
     meeting(shape) * (4.0 / 9.0) * slope(shape, 2.0 / 3.0 * t)
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::kernel;
-use crate::plan::ranges::WalkPlan;
-use crate::plan::{ALL_BITS, Ground, Plan};
+use crate::plan::ranges::TerrainPlan;
+use crate::plan::{ALL_BITS, Plan, SurfacePlan};
 use crate::scene::{Deformation, Kernel, KernelShape, Outside, Scene, Surface, Terrain};
 use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
@@ -20,11 +20,11 @@ const RSQRT_LOG2: u32 = 10;
 /// The machine's memories for one height map.
 #[derive(Clone, Debug)]
 pub struct Memory<W: World> {
-    /// Nodes.
+    /// Heights of the nodes, height units above the lowest one.
     pub heights: Arc<HeightMemory<W::Height>>,
-    /// Bounds for skipping.
+    /// Bounds for skipping; absent in a plain stepper.
     pub pyramid: Option<Arc<Pyramid<W::Height>>>,
-    /// Kernel tables.
+    /// Weights and slopes of the kernel; absent where not fitted.
     pub rom: Option<Arc<KernelRom<W::Weight>>>,
     /// How nodes are weighted.
     pub form: Form,
@@ -47,7 +47,8 @@ impl<W: Open> Memory<W> {
     /// # Errors
     /// If a height or weight does not fit its register: only in a sweep.
     pub fn new(world: &W, scene: &Scene, plan: &Plan) -> Result<Option<Self>, super::SetupError> {
-        let (Surface::Terrain(terrain), Ground::Terrain(walk)) = (&scene.surface, &plan.ground)
+        let (Surface::Terrain(terrain), SurfacePlan::Terrain(walk)) =
+            (&scene.surface, &plan.surface)
         else {
             return Ok(None);
         };
@@ -81,7 +82,7 @@ impl<W: Open> Memory<W> {
 fn heights<W: Open>(
     world: &W,
     terrain: &Terrain,
-    walk: &WalkPlan,
+    walk: &TerrainPlan,
     void_bits: bool,
 ) -> Result<HeightMemory<W::Height>, super::SetupError> {
     let format = world.height(Register::Node);
@@ -117,10 +118,10 @@ fn form(kernel: &Kernel, plan: &Plan) -> Form {
         _ if !plan.fitted.kernel_rom => Form::Hat,
         Deformation::Stretch => Form::Stretch,
         // The general datapath: a shift by all bits is the hat, one by zero the kernel.
-        _ if plan.full && kernel.shape == KernelShape::Hat => Form::Blend(ALL_BITS),
-        Deformation::None if plan.full => Form::Blend(0),
+        _ if plan.full && kernel.shape == KernelShape::Hat => Form::TowardHat(ALL_BITS),
+        Deformation::None if plan.full => Form::TowardHat(0),
         Deformation::None => Form::Plain,
-        Deformation::Blend { weight_shift } => Form::Blend(weight_shift.min(ALL_BITS)),
+        Deformation::TowardHat { weight_shift } => Form::TowardHat(weight_shift.min(ALL_BITS)),
     }
 }
 

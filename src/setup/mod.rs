@@ -6,8 +6,8 @@ pub mod kernel;
 pub mod memory;
 pub mod table;
 
-use crate::plan::ranges::WalkPlan;
-use crate::plan::{Ground, Plan, PlanError};
+use crate::plan::ranges::TerrainPlan;
+use crate::plan::{Plan, PlanError, SurfacePlan};
 use crate::scene::{Scene, Surface};
 use crate::unit::checker::Checker;
 use crate::unit::coefficient::{Bank, Coefficient};
@@ -35,9 +35,9 @@ pub enum SetupError {
         "format: {value} does not fit register {register}; widen it or leave its format to the plan"
     )]
     Register {
-        /// The register.
+        /// The register that cannot hold it.
         register: Register,
-        /// The value.
+        /// The value that does not fit, in the register's unit.
         value: f64,
     },
 }
@@ -54,28 +54,28 @@ pub enum Back<W: World> {
 /// The units that draw a height map.
 #[derive(Clone, Debug)]
 pub struct TerrainUnits<W: World> {
-    /// Ray stepper.
+    /// Finds the first sample of a ray under the surface.
     pub stepper: Stepper<W>,
-    /// Interpolator.
+    /// Gives height and slopes at the hit.
     pub interpolator: Interpolator<W>,
-    /// Shader.
+    /// Light, ramp, mixer and pixel.
     pub shader: Shader<W>,
 }
 
 /// All registers of a machine, loaded.
 #[derive(Clone, Debug)]
 pub struct Setup<W: World> {
-    /// The number world.
+    /// The number world whose words the coefficients are.
     pub world: W,
     /// Pixels across.
     pub columns: u32,
     /// Scan lines.
     pub lines: u32,
-    /// Projector.
+    /// Gives the view vectors by additions.
     pub projector: Projector<W>,
-    /// Divider, where fitted.
+    /// Gives the place where rays meet a plane; absent where not fitted.
     pub divider: Option<Divider<W>>,
-    /// What follows.
+    /// The units behind the divider, by the kind of surface.
     pub back: Back<W>,
     /// Units of another kind of surface are fitted, and idle.
     pub idle: bool,
@@ -107,8 +107,8 @@ impl<W: Complete> Setup<W> {
         memory: Option<&Memory<W>>,
     ) -> Result<Self, SetupError> {
         let coefficients = coefficients::Coefficients::new(plan);
-        let back = match (&scene.surface, &plan.ground, memory) {
-            (Surface::Terrain(_), Ground::Terrain(walk), Some(memory)) => {
+        let back = match (&scene.surface, &plan.surface, memory) {
+            (Surface::Terrain(_), SurfacePlan::Terrain(walk), Some(memory)) => {
                 let interpolator = coefficients::interpolator(&world, plan, walk, memory)?;
                 let surface = interpolator.clone();
                 let stepper = coefficients::stepper(&world, scene, walk, memory, surface)?;
@@ -116,7 +116,7 @@ impl<W: Complete> Setup<W> {
                 let shader = coefficients::shader(&world, scene, plan, walk, memory)?;
                 Back::Terrain(Box::new(TerrainUnits { stepper, interpolator, shader }))
             }
-            (Surface::Plane(plane), Ground::Plane(planned), _) => Back::Plane(
+            (Surface::Plane(plane), SurfacePlan::Plane(planned), _) => Back::Plane(
                 coefficients::checker(&world, scene, plan, plane, planned, &coefficients)?,
             ),
             _ => unreachable!("a plan is of its scene, and a height map has its memory"),
@@ -175,7 +175,7 @@ impl<W: Interpolating + Shading> Back<W> {
 }
 
 fn refuse_eye_under_ground<W: Interpolating + Open>(
-    walk: &WalkPlan,
+    walk: &TerrainPlan,
     stepper: &Stepper<W>,
 ) -> Result<(), PlanError> {
     let (eye, surface) = (stepper.eye(), &stepper.surface);

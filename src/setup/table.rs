@@ -13,14 +13,14 @@ use crate::word::Register;
 
 /// One row of the table.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
-    /// Register.
+pub struct RegisterRow {
+    /// The register that the row is about.
     pub register: Register,
     /// Unit that drives it.
     pub unit: &'static str,
-    /// What it holds.
+    /// What it holds, in half a sentence.
     pub meaning: &'static str,
-    /// Physical unit.
+    /// Physical unit of its values.
     pub measure: &'static str,
     /// Numbers of its equations in docs/mathematics.md.
     pub equations: &'static str,
@@ -29,9 +29,9 @@ pub struct Entry {
 }
 
 /// The row of a register.
-pub fn entry(register: Register) -> Entry {
+pub fn row(register: Register) -> RegisterRow {
     use Register as R;
-    let row = |unit, meaning, measure, equations, bound| Entry {
+    let new = |unit, meaning, measure, equations, bound| RegisterRow {
         register,
         unit,
         meaning,
@@ -41,50 +41,50 @@ pub fn entry(register: Register) -> Entry {
     };
     const VIEW: &str = "(1 + line + column)/2 ulp (29)";
     match register {
-        R::ViewX => row("projector", "view vector along x", "cells × 2^e", "5, 6", VIEW),
-        R::ViewY => row("projector", "view vector along y", "height units × 2^e", "5, 6", VIEW),
-        R::ViewZ => row("projector", "view vector along z", "cells × 2^e", "5, 6", VIEW),
+        R::ViewX => new("projector", "view vector along x", "cells × 2^e", "5, 6", VIEW),
+        R::ViewY => new("projector", "view vector along y", "height units × 2^e", "5, 6", VIEW),
+        R::ViewZ => new("projector", "view vector along z", "cells × 2^e", "5, 6", VIEW),
         R::Denominator => {
-            row("projector", "s n·V / abs(F), positive towards the plane", "2^d", "8, 9", VIEW)
+            new("projector", "s n·V / abs(F), positive towards the plane", "2^d", "8, 9", VIEW)
         }
-        R::GroundX => row("divider, stepper", "position, x", "cells", "9, 19", "(30), (31)"),
-        R::GroundZ => row("divider, stepper", "position, z", "cells", "9, 19", "(30), (31)"),
-        R::DGroundX => row("stepper", "step, x", "cells", "20", "½ ulp + (29) shifted"),
-        R::DGroundZ => row("stepper", "step, z", "cells", "20", "½ ulp + (29) shifted"),
-        R::RayY => row("stepper", "height of the ray", "height units", "19", "(31)"),
-        R::DRayY => row("stepper", "step, y", "height units", "20", "½ ulp + (29) shifted"),
-        R::Node => row("height memory", "node of the map", "height units", "14", "½ ulp"),
-        R::Surface => row(
+        R::GroundX => new("divider, stepper", "position, x", "cells", "9, 19", "(30), (31)"),
+        R::GroundZ => new("divider, stepper", "position, z", "cells", "9, 19", "(30), (31)"),
+        R::DGroundX => new("stepper", "step, x", "cells", "20", "½ ulp + (29) shifted"),
+        R::DGroundZ => new("stepper", "step, z", "cells", "20", "½ ulp + (29) shifted"),
+        R::RayY => new("stepper", "height of the ray", "height units", "19", "(31)"),
+        R::DRayY => new("stepper", "step, y", "height units", "20", "½ ulp + (29) shifted"),
+        R::Node => new("height memory", "node of the map", "height units", "14", "½ ulp"),
+        R::Surface => new(
             "interpolator",
             "surface height",
             "height units",
             "14, 17",
             "nodes and 2 lerps: 2 ulp, plus the table's share (13)",
         ),
-        R::SlopeX => row("interpolator", "−∂y/∂x", "1", "15, 18", "table's share (13)"),
-        R::SlopeZ => row("interpolator", "−∂y/∂z", "1", "15, 18", "table's share (13)"),
-        R::Weight => row("kernel ROM", "kernel weight", "1", "12, 16", "½ ulp + (13)"),
-        R::WeightSlope => row("kernel ROM", "its derivative", "1/cell", "12, 16", "½ ulp + (13)"),
-        R::Normal => row("light", "normal, scaled below one", "1", "23", "½ ulp"),
-        R::Shade => row(
+        R::SlopeX => new("interpolator", "−∂y/∂x", "1", "15, 18", "table's share (13)"),
+        R::SlopeZ => new("interpolator", "−∂y/∂z", "1", "15, 18", "table's share (13)"),
+        R::Weight => new("kernel ROM", "kernel weight", "1", "12, 16", "½ ulp + (13)"),
+        R::WeightSlope => new("kernel ROM", "its derivative", "1/cell", "12, 16", "½ ulp + (13)"),
+        R::Normal => new("light", "normal, scaled below one", "1", "23", "½ ulp"),
+        R::Shade => new(
             "light, checker",
             "ambient plus diffuse light; contrast",
             "1",
             "24, 25, 27",
             "2^-10 + 6 ulp (24)",
         ),
-        R::Ramp => row(
+        R::Ramp => new(
             "ramp",
             "place on the ramp",
             "segments",
             "26",
             "segments + 1 ulp, plus the height's",
         ),
-        R::Channel => row("ramp, mixer, checker", "colour channel", "0..=255", "26, 27", "1 level"),
+        R::Channel => new("ramp, mixer, checker", "colour channel", "0..=255", "26, 27", "1 level"),
     }
 }
 
-/// docs/registers.md.
+/// Text of docs/registers.md.
 pub fn markdown() -> String {
     let mut out = String::from(
         "# Registers\n\n\
@@ -98,7 +98,7 @@ pub fn markdown() -> String {
          |---|---|---|---|---|---|---|---|---|---|\n",
     );
     for &register in Register::ALL {
-        let e = entry(register);
+        let e = row(register);
         let _ = writeln!(
             out,
             "| `{}` | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
@@ -123,15 +123,15 @@ pub fn markdown() -> String {
          | projector | 1 | 1 | 2 |\n\
          | divider, array | 1 | bits + {DIVIDER_ENDS} | bits + {} |\n\
          | divider, serial | bits + {DIVIDER_ENDS} | 1 | 2 |\n\
-         | stepper | {RAY_START} + trials·(1 + M) + samples·R + groups·(N + {LERP_LATENCY}) + \
-         halvings·(R + N + {LERP_LATENCY}) + hits·({RAY_END} + H) | 1 | 2 |\n\
+         | stepper | {RAY_START} + skip_tests·(1 + M) + samples·R + bursts·(N + {LERP_LATENCY}) + \
+         bisection_steps·(R + N + {LERP_LATENCY}) + hits·({RAY_END} + H) | 1 | 2 |\n\
          | interpolator | R | N + {} | N + {} |\n\
          | shader, checker | 1 | {} | {} |\n\
          | frame | 1 | 0 | 1 |\n\n\
          R, reads of the height memory per interpolation: 1 cycle for 2×2 nodes, 4 for 3×3. A \
-         group is a run of up to 2^k samples streamed through the interpolator. H is 2R + N + \
+         burst is a run of up to 2^k samples streamed through the interpolator. H is 2R + N + \
          {LERP_LATENCY} on a map with holes, else 0. N is the larger of M and {KERNEL_LATENCY}, the cycles \
-         of kernel ROM and blend.\n",
+         of kernel ROM and hat weight.\n",
         DIVIDER_ENDS + 1,
         LERP_LATENCY + SLOPE_LATENCY,
         LERP_LATENCY + SLOPE_LATENCY + 1,

@@ -19,7 +19,7 @@ impl NewFolder {
     /// Checks that a folder of this name can be made.
     ///
     /// # Errors
-    /// If something of this name is there already, or the folder around it is missing.
+    /// If something of this name exists already, or the folder around it is missing.
     pub fn check(target: &Path) -> Result<(), SinkError> {
         around(target).map(|_| ())
     }

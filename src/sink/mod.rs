@@ -23,15 +23,15 @@ pub enum SinkError {
     /// The folder of the target does not exist.
     #[error("cannot write {path}: there is no folder {folder}; create it or choose another path")]
     NoFolder {
-        /// The target.
+        /// The file that was to be written.
         path: PathBuf,
-        /// The missing folder.
+        /// The folder that is missing.
         folder: PathBuf,
     },
     /// What should be the folder of the target is something else.
     #[error("cannot write {path}: {folder} is not a folder; choose another path")]
     NotAFolder {
-        /// The target.
+        /// The file that was to be written.
         path: PathBuf,
         /// What stands in the place of its folder.
         folder: PathBuf,
@@ -39,27 +39,27 @@ pub enum SinkError {
     /// The target is a folder, or has no file name.
     #[error("cannot write {path:?}: this is a folder; add a file name to it")]
     IsFolder {
-        /// The target.
+        /// The file that was to be written.
         path: PathBuf,
     },
     /// The target exists and is read-only.
     #[error("cannot write {path}: the file is read-only; make it writable or choose another path")]
     ReadOnly {
-        /// The target.
+        /// The file that was to be written.
         path: PathBuf,
     },
     /// A folder is to be made where something is.
-    #[error("cannot write {path}: it is there already; remove it or choose another name")]
+    #[error("cannot write {path}: it exists already; remove it or choose another name")]
     Occupied {
-        /// The target.
+        /// The folder that was to be made.
         path: PathBuf,
     },
     /// The operating system or the encoder refused.
     #[error("cannot write {path}: {error}; {}", remedy(error))]
     Io {
-        /// The target.
+        /// The file that was to be written.
         path: PathBuf,
-        /// What was said.
+        /// What the system said.
         error: io::Error,
     },
     /// An array has not as many values as the frame has pixels.
@@ -68,7 +68,7 @@ pub enum SinkError {
          this is a fault of the program, please report it"
     )]
     Shape {
-        /// The target.
+        /// The file that was to be written.
         path: PathBuf,
         /// Name of the array.
         array: &'static str,
@@ -85,7 +85,7 @@ pub enum SinkError {
 #[derive(Debug, Error)]
 #[error("cannot read {path}: {reason}; {remedy}")]
 pub struct ReadError {
-    /// The file.
+    /// The file that cannot be read.
     pub path: PathBuf,
     /// What is wrong with it.
     pub reason: String,
@@ -189,7 +189,7 @@ enum Target {
         /// The file behind symbolic links.
         file: PathBuf,
         folder: PathBuf,
-        /// Those of the file that is there already.
+        /// Those of the file that exists already.
         permissions: Option<fs::Permissions>,
     },
 }

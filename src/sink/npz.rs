@@ -28,10 +28,10 @@ const WHOLE_FILE: &str = "give a whole .npz file, as numpy's savez or this progr
 /// [`SinkError`]; nothing is left half-written.
 pub fn write(path: &Path, frame: &Frame) -> Result<(), SinkError> {
     let (columns, lines) = (frame.columns, frame.lines);
-    for (entry, scalars) in frame.arrays() {
-        let found = scalars.len() / entry.components;
+    for (row, scalars) in frame.arrays() {
+        let found = scalars.len() / row.components;
         if Some(found) != columns.checked_mul(lines) {
-            let (path, array) = (path.to_owned(), entry.name);
+            let (path, array) = (path.to_owned(), row.name);
             return Err(SinkError::Shape { path, array, columns, lines, found });
         }
     }
@@ -45,9 +45,9 @@ pub fn write(path: &Path, frame: &Frame) -> Result<(), SinkError> {
             .unix_permissions(0o644)
             .system(System::Unix)
             .large_file(true);
-        for (entry, scalars) in frame.arrays() {
-            zip.start_file(format!("{}.npy", entry.name), options)?;
-            let header = Header { dtype: entry.dtype, shape: entry.shape(lines, columns) };
+        for (row, scalars) in frame.arrays() {
+            zip.start_file(format!("{}.npy", row.name), options)?;
+            let header = Header { dtype: row.dtype, shape: row.shape(lines, columns) };
             zip.write_all(&header.to_bytes())?;
             for piece in scalars.pieces(CHUNK) {
                 zip.write_all(&piece)?;
@@ -143,7 +143,7 @@ pub struct ArrayReader<'a, R: Read> {
 }
 
 impl<R: Read> ArrayReader<'_, R> {
-    /// Type and shape.
+    /// Type and shape of the array.
     pub fn header(&self) -> &Header {
         &self.header
     }

@@ -59,7 +59,7 @@ pub struct Painted {
 }
 
 impl Picture {
-    /// All pictures.
+    /// All pictures, in the order of the window's keys 1 to 6.
     pub const ALL: [Self; 6] =
         [Self::Color, Self::Height, Self::Normal, Self::Steps, Self::Error, Self::Cycles];
 
@@ -85,7 +85,7 @@ impl Picture {
     pub fn ramp(self, t: f64) -> Option<[u8; 3]> {
         match self {
             Self::Color | Self::Normal => None,
-            Self::Height => Some(ramp(&RELIEF, t)),
+            Self::Height => Some(ramp(&ELEVATION, t)),
             Self::Steps | Self::Error | Self::Cycles => Some(ramp(&SEQUENCE, t)),
         }
     }
@@ -114,7 +114,7 @@ pub fn height(heights: &[f64]) -> Painted {
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &h| (low.min(h), high.max(h)));
     let pixels = heights
         .iter()
-        .map(|&h| if h.is_finite() { ramp(&RELIEF, share(h, low, high)) } else { NOTHING })
+        .map(|&h| if h.is_finite() { ramp(&ELEVATION, share(h, low, high)) } else { NOTHING })
         .collect();
     let legend =
         (low <= high).then_some(Legend { low, high, unit: "scene units", logarithmic: false });
@@ -212,7 +212,7 @@ const SEQUENCE: [[u8; 3]; 8] = [
 ];
 
 /// Deep blue over green and sand to near white; each colour lighter than the one before.
-const RELIEF: [[u8; 3]; 6] =
+const ELEVATION: [[u8; 3]; 6] =
     [[18, 36, 86], [22, 86, 104], [56, 130, 88], [150, 158, 80], [222, 184, 122], [253, 240, 222]];
 
 /// Colour at place `t` of a ramp, clamped to 0..=1, between evenly spaced sRGB colours.
@@ -245,7 +245,7 @@ mod tests {
 
     #[test]
     fn ramps_grow_lighter_and_never_pass_through_grey() {
-        for colors in [&SEQUENCE[..], &RELIEF[..]] {
+        for colors in [&SEQUENCE[..], &ELEVATION[..]] {
             let steps: Vec<_> = (0..=200).map(|i| ramp(colors, f64::from(i) / 200.0)).collect();
             assert!(steps.windows(2).all(|w| luminance(w[0]) < luminance(w[1])));
             assert!(!steps.contains(&NOTHING) && !steps.contains(&SILHOUETTE));
@@ -259,18 +259,18 @@ mod tests {
         let painted = height(&[2.0, f64::NAN, -1.0, f64::INFINITY, 0.5]);
         let legend = painted.legend.unwrap();
         assert_eq!((legend.low, legend.high, legend.unit), (-1.0, 2.0, "scene units"));
-        assert_eq!(painted.pixels[0], RELIEF[5]);
+        assert_eq!(painted.pixels[0], ELEVATION[5]);
         assert_eq!(painted.pixels[1], NOTHING);
-        assert_eq!(painted.pixels[2], RELIEF[0]);
+        assert_eq!(painted.pixels[2], ELEVATION[0]);
         assert_eq!(painted.pixels[3], NOTHING);
-        assert_eq!(painted.pixels[4], ramp(&RELIEF, 0.5));
+        assert_eq!(painted.pixels[4], ramp(&ELEVATION, 0.5));
 
         let flat = height(&[3.0, 3.0]);
         assert_eq!(flat.legend.map(|l| (l.low, l.high)), Some((3.0, 3.0)));
-        assert_eq!(flat.pixels[0], ramp(&RELIEF, 0.5));
+        assert_eq!(flat.pixels[0], ramp(&ELEVATION, 0.5));
 
         let wide = height(&[-f64::MAX, 0.0, f64::MAX]);
-        assert_eq!(wide.pixels, [RELIEF[0], ramp(&RELIEF, 0.5), RELIEF[5]]);
+        assert_eq!(wide.pixels, [ELEVATION[0], ramp(&ELEVATION, 0.5), ELEVATION[5]]);
 
         assert_eq!(height(&[f64::NAN]), Painted { pixels: vec![NOTHING], legend: None });
         assert_eq!(height(&[]), Painted { pixels: vec![], legend: None });

@@ -24,7 +24,7 @@ const MAX_BYTES: u64 = 4 * (MAX_SIDE as u64) * (MAX_SIDE as u64);
 pub struct Image {
     /// Pixels across.
     pub columns: usize,
-    /// Lines.
+    /// Scan lines.
     pub lines: usize,
     /// sRGB bytes, `lines * columns`, line by line from the top.
     pub pixels: Vec<[u8; 3]>,

@@ -65,7 +65,7 @@ pub struct Vectors<'a> {
     pub folder: &'a Path,
 }
 
-/// What was written.
+/// The files that were written, and how their rows were chosen.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Files in the order of the data flow, memories last.
@@ -115,7 +115,7 @@ impl Vectors<'_> {
                 }
                 _ => format!("{} {}", Rounding::default().name(), Overflow::default().name()),
             };
-            let equations = table::entry(register).equations;
+            let equations = table::row(register).equations;
             format!("format {register} {word} {rule} equations {equations}")
         };
         registers.iter().map(line).collect()

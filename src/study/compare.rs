@@ -27,9 +27,9 @@ pub enum CompareError {
          give two .png files or two .npz files"
     )]
     Kind {
-        /// The picture.
+        /// The file that is a picture.
         picture: PathBuf,
-        /// The buffers.
+        /// The file that holds buffers.
         buffers: PathBuf,
     },
     /// Pictures of different sizes.
@@ -76,8 +76,8 @@ impl Comparison {
                 let close =
                     |a: &ArrayComparison| a.max_difference <= max_difference && a.unmatched == 0;
                 let of_all = |name: &String| {
-                    let entry = TABLE.iter().find(|entry| entry.name == name);
-                    entry.is_none_or(|entry| entry.giver == Giver::Engines)
+                    let row = TABLE.iter().find(|row| row.name == name);
+                    row.is_none_or(|row| row.giver == Giver::Engines)
                 };
                 !buffers.only_in_a.iter().chain(&buffers.only_in_b).any(of_all)
                     && buffers.arrays.iter().all(close)
@@ -91,7 +91,7 @@ impl Comparison {
 pub struct PictureComparison {
     /// Pixels across.
     pub columns: usize,
-    /// Lines.
+    /// Scan lines.
     pub lines: usize,
     /// No pixel differs.
     pub identical: bool,
@@ -168,7 +168,7 @@ pub struct ArrayComparison {
     pub worst: Option<Vec<usize>>,
 }
 
-/// Compares two PNG files or two `.npz` files; `.npz` is told by its name or its first bytes.
+/// Compares two PNG files or two `.npz` files; `.npz` is recognised by its name or its first bytes.
 ///
 /// # Errors
 /// [`CompareError`] when a file cannot be read, the two are of different kinds, or their sizes

@@ -17,23 +17,23 @@ use crate::word::{Complete, World};
 /// Cost of one unit, per pixel of the frame.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct UnitCost {
-    /// Unit.
+    /// Name of the unit.
     pub name: &'static str,
     /// Cycles from its work's end to the next unit.
     pub latency_cycles: u32,
     /// Items that it holds.
     pub depth: u32,
-    /// Cycles of work.
+    /// Cycles of work on an item, mean over the pixels.
     pub busy_cycles_per_pixel: f64,
     /// Cycles in which it waited for the next unit.
     pub stalled_cycles_per_pixel: f64,
     /// Additions, those inside its multipliers and dividers included.
     pub additions_per_pixel: f64,
-    /// Products among them.
+    /// Products, whose additions are counted above.
     pub products_per_pixel: f64,
     /// Reads of heights and pyramid.
     pub memory_reads_per_pixel: f64,
-    /// Reads of tables.
+    /// Reads of the kernel's and the light's tables.
     pub table_reads_per_pixel: f64,
 }
 
@@ -48,17 +48,17 @@ pub struct Cost {
     pub lines: u32,
     /// Cycles of the frame; from all lines if all were counted, else scaled from those.
     pub cycles: u64,
-    /// Cycles per pixel.
+    /// Cycles of the frame by its pixels.
     pub cycles_per_pixel: f64,
     /// Additions of the frame.
     pub additions: u64,
-    /// Additions per pixel.
+    /// Additions of the frame by its pixels.
     pub additions_per_pixel: f64,
     /// Frames per second at the scene's clock.
     pub modelled_fps: f64,
     /// The unit with most cycles of work.
     pub limit: &'static str,
-    /// Unit by unit.
+    /// The same for every unit, in their order.
     pub units: Vec<UnitCost>,
 }
 

@@ -17,20 +17,20 @@ use crate::readout::Reader;
 use crate::setup::{Setup, SetupError};
 use crate::unit::Line;
 use crate::word::Complete;
-use crate::word::format::mix;
+use crate::word::format::hash;
 use crate::word::real::Real;
 
 /// Lines and columns that a study looks at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sample {
-    /// Ascending.
+    /// Lines of the sample, ascending.
     pub lines: Vec<u32>,
-    /// Ascending.
+    /// Columns of the sample, ascending.
     pub columns: Vec<u32>,
 }
 
 impl Sample {
-    /// Every pixel.
+    /// The sample that is the whole frame.
     pub fn all(plan: &Plan) -> Self {
         Self {
             lines: (0..plan.geometry.lines).collect(),
@@ -49,7 +49,7 @@ impl Sample {
             (0..count)
                 .map(|strip| {
                     let (from, to) = (edge(strip), edge(strip + 1));
-                    from + (mix(seed ^ axis, strip.into()) % u64::from(to - from)) as u32
+                    from + (hash(seed ^ axis, strip.into()) % u64::from(to - from)) as u32
                 })
                 .collect()
         };
@@ -61,7 +61,7 @@ impl Sample {
         Self { lines: Self::strips(plan, count, seed).lines, ..Self::all(plan) }
     }
 
-    /// Number of pixels.
+    /// Number of pixels in the sample.
     pub fn len(&self) -> usize {
         self.lines.len() * self.columns.len()
     }
@@ -80,7 +80,7 @@ pub enum Sheet {
     Empty,
     /// Both hit, with no other crossing between.
     Same,
-    /// The machine says `Far`: what the oracle sees lies beyond the registers' range.
+    /// The machine says `OutOfRange`: what the oracle sees lies beyond the registers' range.
     Beyond,
     /// One hits and the other does not, they meet different kinds of surface, or another sheet.
     Silhouette,
@@ -89,9 +89,9 @@ pub enum Sheet {
 /// Errors of one pixel; lengths are NaN but on the same sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct PixelError {
-    /// Scan line.
+    /// Scan line of the pixel, from the top.
     pub line: u32,
-    /// Column.
+    /// Column of the pixel, from the left.
     pub column: u32,
     /// Which kind of pixel.
     pub sheet: Sheet,
@@ -227,12 +227,12 @@ fn one(oracle: &Oracle, line: u32, column: u32, fixed: Seen, real: Seen) -> Pixe
         height: f64::NAN,
         color,
     };
-    let misses = |hit| matches!(hit, Hit::Sky | Hit::Far);
+    let misses = |hit| matches!(hit, Hit::Sky | Hit::OutOfRange);
     if misses(fixed.hit) && misses(sighting.hit) {
         error.sheet = Sheet::Empty;
         return error;
     }
-    if fixed.hit == Hit::Far {
+    if fixed.hit == Hit::OutOfRange {
         error.sheet = Sheet::Beyond;
         return error;
     }
@@ -271,9 +271,9 @@ fn one(oracle: &Oracle, line: u32, column: u32, fixed: Seen, real: Seen) -> Pixe
 pub struct Spread {
     /// Half of the pixels are at most this.
     pub median: f64,
-    /// 99.9 % are.
+    /// 99.9 % are at most this.
     pub p999: f64,
-    /// All are.
+    /// The largest.
     pub max: f64,
 }
 
@@ -297,7 +297,7 @@ impl Spread {
 /// Errors over a sample.
 #[derive(Clone, Debug, Serialize)]
 pub struct ErrorReport {
-    /// Pixels looked at.
+    /// Pixels of the sample.
     pub pixels: usize,
     /// Lines and columns they come from.
     pub sampled_lines: usize,
@@ -305,9 +305,9 @@ pub struct ErrorReport {
     pub sampled_columns: usize,
     /// Pixels on the same sheet.
     pub same_sheet: usize,
-    /// Silhouette pixels.
+    /// Pixels where the two see different sheets.
     pub silhouettes: usize,
-    /// Pixels that the machine calls far.
+    /// Pixels that the machine calls out of range.
     pub beyond: usize,
     /// Fixed point against the oracle, pixels.
     pub total_px: Option<Spread>,

@@ -15,41 +15,41 @@ use crate::unit::Wire;
 use crate::word::Register;
 use closed::Closed;
 use quantity::{Axis, Quantity};
-use trace::{Reading, Trace, Walk};
+use trace::{PixelTrace, Reading, Trace};
 
 /// One register of one pixel.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Unit that drives the register.
     pub unit: &'static str,
-    /// What it is.
+    /// Name of the quantity.
     pub what: String,
-    /// Register.
+    /// Register whose format it has.
     pub register: &'static str,
-    /// Its format.
+    /// Its format, as `Q12.20`, or `f64`.
     pub format: String,
-    /// Its bits.
+    /// Its bits; none in worlds without bits.
     pub raw: Option<i64>,
-    /// Its value.
+    /// Its value in the register's unit.
     pub value: f64,
     /// The same in the real world.
     pub real: Option<f64>,
-    /// The closed form.
+    /// What the closed form says, where it says something.
     pub oracle: Option<f64>,
-    /// Value minus real.
+    /// Fixed-point value minus real value.
     pub error: Option<f64>,
     /// Derived bound of the error, where there is one.
     pub bound: Option<f64>,
-    /// Equation numbers.
+    /// Numbers of its equations in docs/mathematics.md.
     pub equations: &'static str,
 }
 
-/// A pixel explained.
+/// One pixel in fixed point, in `f64` and by the oracle, quantity by quantity.
 #[derive(Clone, Debug, Serialize)]
 pub struct Explanation {
-    /// Column.
+    /// Column of the pixel, from the left.
     pub column: u32,
-    /// Line.
+    /// Line of the pixel, from the top.
     pub line: u32,
     /// Outcome in fixed point.
     pub hit: &'static str,
@@ -59,12 +59,12 @@ pub struct Explanation {
     pub oracle_hit: &'static str,
     /// Index of the sample that hit.
     pub steps: u32,
-    /// Trials, samples, halvings.
-    pub trials: u32,
-    /// See `trials`.
+    /// Skip tests of the pyramid, in fixed point.
+    pub skip_tests: u32,
+    /// Samples tested on the walk, in fixed point.
     pub samples: u32,
-    /// See `trials`.
-    pub halvings: u32,
+    /// Bisection steps behind the hit, in fixed point.
+    pub bisection_steps: u32,
     /// sRGB bytes: fixed.
     pub color: [u8; 3],
     /// sRGB bytes: oracle.
@@ -84,8 +84,8 @@ impl Machine<'_> {
     /// If the scene cannot be set up in f64.
     pub fn explain(&self, column: u32, line: u32) -> Result<Explanation, SetupError> {
         let plan = self.plan();
-        let fixed = self.run(Walk { column, line, index: None });
-        let real = Walk { column, line, index: Some(fixed.steps) }.run(self.real()?);
+        let fixed = self.run(PixelTrace { column, line, index: None });
+        let real = PixelTrace { column, line, index: Some(fixed.steps) }.run(self.real()?);
         let oracle = self.oracle();
         let sighting = oracle.pixel(line.into(), column.into());
         let closed = Closed {
@@ -114,7 +114,7 @@ impl Machine<'_> {
                     oracle: closed.value(reading.quantity),
                     error: real_value.map(|real| reading.value - real),
                     bound: bound(&fixed, reading, &closed.coefficients, column, line),
-                    equations: table::entry(register).equations,
+                    equations: table::row(register).equations,
                 }
             })
             .collect();
@@ -125,9 +125,9 @@ impl Machine<'_> {
             real_hit: real.hit.name(),
             oracle_hit: sighting.hit.name(),
             steps: fixed.steps,
-            trials: fixed.work.trials,
+            skip_tests: fixed.work.skip_tests,
             samples: fixed.work.samples,
-            halvings: fixed.work.halvings,
+            bisection_steps: fixed.work.bisection_steps,
             color: fixed.color,
             oracle_color: sighting.color,
             turned_away: fixed.turned_away,

@@ -48,7 +48,7 @@ pub struct Checker<W: World> {
     pub contrast_exponent: i32,
     /// See `contrast_exponent`.
     pub contrast_gain: W::Tone,
-    /// One.
+    /// The contrast of a square seen in full.
     pub one: W::Tone,
     /// The denominator from which on contrast is full: larger ones are not scaled. Absent where no
     /// pixel of the screen reaches it.
@@ -95,7 +95,7 @@ impl<W: Shading> Unit<W> for Checker<W> {
         for i in 0..line.len() {
             (line.hit[i], line.color[i]) = match line.entry[i] {
                 Entry::Sky => (Hit::Sky, self.pixel.sky),
-                Entry::Far => (Hit::Far, self.pixel.out_of_range),
+                Entry::OutOfRange => (Hit::OutOfRange, self.pixel.out_of_range),
                 Entry::Met => {
                     let site = Site::pixel(line.number, line.column[i]);
                     let contrast = self.contrast(line.denominator[i], site);

@@ -1,6 +1,6 @@
 //! The coefficient registers: what is loaded before a frame and does not change within it.
 //!
-//! Every coefficient stands once, in the list at the end of this file. Units put their values into
+//! Every coefficient is declared once, in the list at the end of this file. Units put their values into
 //! a [`Bank`]; test vectors and the RTL's register bank read them from there.
 
 use crate::word::{Open, Readout, Register, World};
@@ -16,7 +16,7 @@ pub enum Kind {
     Flag,
     /// One of up to four cases.
     Code,
-    /// A whole number that is not negative, of so many bits in hardware.
+    /// A whole number that is not negative, of this many bits in hardware.
     Count(u32),
     /// A power of two.
     Exponent,
@@ -39,12 +39,12 @@ macro_rules! coefficients {
                 match self { $(Self::$variant => $name,)* }
             }
 
-            /// What it is.
+            /// How it is loaded: its bits in hardware.
             pub const fn kind(self) -> Kind {
                 match self { $(Self::$variant => $kind,)* }
             }
 
-            /// What it holds.
+            /// What it holds, in half a sentence.
             pub const fn meaning(self) -> &'static str {
                 match self { $(Self::$variant => $meaning,)* }
             }
@@ -164,14 +164,14 @@ coefficients! {
     BisectionCap "bisection_cap" Count(6), "and at most this many";
     Skipping "skipping" Flag, "1 where the pyramid is fitted";
     PyramidTop "pyramid_top" Count(5), "highest level of the pyramid";
-    BeyondSky "beyond_sky" Flag, "1 where an entry out of range is sky, else it is far";
+    BeyondSky "beyond_sky" Flag, "1 where an entry out of range is sky, else it stays out of range";
     MapColumns "map_columns" Nodes, "nodes of the map in x";
     MapRows "map_rows" Nodes, "nodes of the map in z";
     MapEdge "map_edge" Code, "beyond the edge: 0 the map ends, 1 its edge nodes go on, 2 it repeats";
     Sides "sides" Flag, "1 where the map has sides, drawn down to the base";
     VoidBits "void_bits" Flag, "1 where nodes may have no data";
-    Form "form" Code, "weights: 0 the kernel's, 1 blended with the hat's, 2 the hat's, 3 over 3x3 nodes";
-    BlendShift "blend_shift" Count(6), "places that a blend shifts the difference right";
+    Form "form" Code, "weights: 0 the kernel's, 1 toward the hat's, 2 the hat's, 3 over 3x3 nodes";
+    DeformationShift "deformation_shift" Count(6), "places that the difference to the hat is shifted right";
     KernelLog2 "kernel_log2" Count(5), "the kernel tables have 2^log2 entries a cell, and one";
     WeightOne "weight_one" Word(R::Weight), "the weight one";
     SlopeScaled "slope_scaled" Flag, "1 where slopes have factors";
@@ -179,7 +179,7 @@ coefficients! {
     SlopeScaleZ "slope_scale_z" Word(R::Weight), "the same, z";
     MemoryLatency "memory_latency" Count(7), "M: cycles from address to data";
     SkyColor "sky_color" Color, "colour where nothing is met";
-    FarColor "far_color" Color, "colour out of range";
+    OutOfRangeColor "out_of_range_color" Color, "colour out of range";
     SideColor "side_color" Color, "colour of the map's side";
     Lit "lit" Flag, "1 where the light is fitted";
     LightX "light_x" Word(R::Shade), "direction towards the light, times the diffuse share, x";

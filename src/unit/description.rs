@@ -18,9 +18,9 @@ pub struct Description {
     pub stage: &'static str,
     /// What it gives, in half a sentence.
     pub gives: &'static str,
-    /// Wires in.
+    /// Wires that it reads.
     pub inputs: &'static [Wire],
-    /// Wires out.
+    /// Wires that it drives.
     pub outputs: &'static [Wire],
     /// Registers whose formats its arithmetic has.
     pub registers: &'static [Register],
@@ -33,31 +33,31 @@ pub struct Description {
 pub struct Cycles {
     /// On every item.
     pub item: u32,
-    /// And on each of its trials.
-    pub trial: u32,
-    /// Samples.
+    /// On each of its skip tests.
+    pub skip_test: u32,
+    /// On each sample of its bursts.
     pub sample: u32,
-    /// Groups of samples.
-    pub group: u32,
-    /// Halvings.
-    pub halving: u32,
-    /// Hits.
+    /// On each of its sample bursts, besides the samples.
+    pub burst: u32,
+    /// On each of its bisection steps.
+    pub bisection_step: u32,
+    /// On its hit.
     pub hit: u32,
 }
 
 impl Cycles {
     /// The same number of cycles on every item.
     pub const fn every(item: u32) -> Self {
-        Self { item, trial: 0, sample: 0, group: 0, halving: 0, hit: 0 }
+        Self { item, skip_test: 0, sample: 0, burst: 0, bisection_step: 0, hit: 0 }
     }
 
-    /// On an item for which the stepper did so much.
+    /// On an item for which the stepper did this work.
     pub fn of(self, work: Work) -> u32 {
         self.item
-            + work.trials * self.trial
+            + work.skip_tests * self.skip_test
             + work.samples * self.sample
-            + work.groups * self.group
-            + work.halvings * self.halving
+            + work.bursts * self.burst
+            + work.bisection_steps * self.bisection_step
             + work.hits * self.hit
     }
 }
@@ -74,7 +74,7 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// A pipeline that takes an item every so many cycles, with a queue for all that it holds.
+    /// A pipeline that takes an item every this many cycles, with a queue for all that it holds.
     pub const fn pipeline(every: u32, latency: u32) -> Self {
         Self { work: Cycles::every(every), latency, depth: latency + 1 }
     }

@@ -12,7 +12,7 @@
 //! | `view_x`, `view_z`, `denominator` | `entry`; `entry_x`, `entry_z` where it is `Met` |
 //!
 //! *Named outcomes*: a denominator that is not positive is `Sky`; a quotient out of range is
-//! `Far`. *Never*: wraps a quotient, divides by zero.
+//! `OutOfRange`. *Never*: wraps a quotient, divides by zero.
 
 use super::coefficient::{Bank, Coefficient as C};
 use super::line::{Entry, Wire};
@@ -39,7 +39,7 @@ pub const DESCRIPTION: Description = Description {
 /// Register stages besides one per quotient bit: shift, bias and range, eye.
 pub const ENDS: u32 = 3;
 
-/// Cycles of a divider of so many quotient bits.
+/// Cycles of a divider of this many quotient bits.
 pub const fn timing(bits: u32, serial: bool) -> Timing {
     if serial {
         Timing { work: Cycles::every(bits + ENDS), latency: 1, depth: 2 }
@@ -57,12 +57,12 @@ pub enum Method {
     Direct,
 }
 
-/// The divider's registers.
+/// The divider's coefficients.
 #[derive(Clone, Debug)]
 pub struct Divider<W: World> {
     /// Foot of the ratio: the eye, x.
     pub eye_x: W::Ground,
-    /// The eye, z.
+    /// The eye, z in cells.
     pub eye_z: W::Ground,
     /// Exponent, range and format of the quotient in x.
     pub ratio_x: Ratio<<W::Ground as Word>::Format>,
@@ -106,7 +106,7 @@ impl<W: Dividing> Divider<W> {
                         line.entry_z[i] = self.eye_z + z;
                         Entry::Met
                     }
-                    _ => Entry::Far,
+                    _ => Entry::OutOfRange,
                 }
             } else {
                 Entry::Sky

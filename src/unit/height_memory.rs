@@ -15,7 +15,7 @@ pub enum Edge {
     Ends,
     /// The edge nodes go on.
     Clamps,
-    /// The map repeats.
+    /// The map repeats in both directions.
     Wraps,
 }
 
@@ -71,7 +71,7 @@ impl<T: Copy> HeightMemory<T> {
         self.rows
     }
 
-    /// What lies beyond.
+    /// What lies beyond the edge of the map.
     pub fn edge(&self) -> Edge {
         self.edge
     }

@@ -1,6 +1,6 @@
 //! The interpolator: surface height and slopes at a place on the ground, by finite functions.
 //!
-//! *In hardware*: the kernel ROM, the hat blend (a subtraction, a shift, an addition) and
+//! *In hardware*: the kernel ROM, the weight toward the hat (a subtraction, a shift, an addition) and
 //! shift-and-add multipliers with one rounding each.
 //!
 //! - 2×2 nodes: `A = h2 + (h1−h2)·w(zd)`, `B = h4 + (h3−h4)·w(zd)`, `y = B + (A−B)·w(xd)`:
@@ -67,7 +67,7 @@ pub const fn height_latency(memory_latency: u32) -> u32 {
     nodes_latency(memory_latency) + LERP_LATENCY
 }
 
-/// Cycles at the hit, where an interpolation takes so many cycles of reading.
+/// Cycles at the hit, where an interpolation takes this many cycles of reading.
 pub const fn timing(reads: u32, memory_latency: u32) -> Timing {
     Timing::pipeline(reads, height_latency(memory_latency) + SLOPE_LATENCY)
 }
@@ -78,7 +78,7 @@ pub enum Form {
     /// 2×2 nodes, the weight is the kernel's.
     Plain,
     /// 2×2 nodes, the weight is the hat plus the difference to the kernel shifted right.
-    Blend(u32),
+    TowardHat(u32),
     /// 2×2 nodes, the weight is the hat's: no ROM is fitted.
     Hat,
     /// 3×3 nodes around the nearest one.
@@ -88,13 +88,13 @@ pub enum Form {
 /// The interpolator's memories and registers.
 #[derive(Clone, Debug)]
 pub struct Interpolator<W: World> {
-    /// The map.
+    /// Heights of the nodes, and which have no data.
     pub heights: Arc<HeightMemory<W::Height>>,
     /// The kernel; unread, and absent where not fitted, when the form is the hat.
     pub rom: Option<Arc<KernelRom<W::Weight>>>,
     /// Which nodes and weights.
     pub form: Form,
-    /// The weight one.
+    /// The weight one: the sum of an axis's weights.
     pub one: W::Weight,
     /// Height unit over cell size, x and z: absent when both are one.
     pub slope_scale: Option<[W::Weight; 2]>,
@@ -105,7 +105,7 @@ pub struct Interpolator<W: World> {
 /// Everything the interpolator computes at one place.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<W: World> {
-    /// Surface height.
+    /// Height of the surface, height units.
     pub surface: W::Height,
     /// Negated slope against x.
     pub slope_x: W::Height,
@@ -142,7 +142,7 @@ impl<W: Interpolating> Interpolator<W> {
         let site = site.at(Register::Weight);
         match (&self.form, &self.rom) {
             // Equation 16; thesis 2.59 to 2.61.
-            (Form::Blend(shift), Some(rom)) => {
+            (Form::TowardHat(shift), Some(rom)) => {
                 let kernel = fraction.look_up(rom.weights(), site);
                 self.hat(fraction, site).toward(kernel, *shift)
             }
@@ -163,7 +163,7 @@ impl<W: Interpolating> Interpolator<W> {
         let weight = self.weight(fraction, site);
         let site = site.at(Register::WeightSlope);
         let slope = match (&self.form, &self.rom) {
-            (Form::Blend(shift), Some(rom)) => {
+            (Form::TowardHat(shift), Some(rom)) => {
                 // The hat falls with slope one.
                 let slope = fraction.look_up(rom.slopes(), site);
                 (slope + self.one).shift_toward_zero(*shift) - self.one
@@ -308,12 +308,12 @@ impl<W: Interpolating> Unit<W> for Interpolator<W> {
     fn coefficients(&self, bank: &mut Bank<W>) {
         let (form, shift) = match self.form {
             Form::Plain => (0, 0),
-            Form::Blend(shift) => (1, shift),
+            Form::TowardHat(shift) => (1, shift),
             Form::Hat => (2, 0),
             Form::Stretch => (3, 0),
         };
         bank.number(C::Form, form);
-        bank.number(C::BlendShift, shift);
+        bank.number(C::DeformationShift, shift);
         bank.weight(C::WeightOne, self.one);
         self.heights.coefficients(bank);
         if let Some(rom) = &self.rom {
@@ -335,7 +335,7 @@ impl<W: Interpolating> Unit<W> for Interpolator<W> {
         match hit {
             // Weights, and their derivatives.
             Hit::Surface | Hit::Side => Reads { memory, table: 2 * table },
-            Hit::Sky | Hit::Far => Reads::default(),
+            Hit::Sky | Hit::OutOfRange => Reads::default(),
         }
     }
 }
@@ -348,18 +348,18 @@ pub const AT_THE_HIT: u32 = 1 << 31;
 pub struct Stencil<W: World> {
     /// Nodes by column from west to east, each from north to south.
     pub nodes: [[W::Height; 3]; 3],
-    /// Weights along x.
+    /// Weights of the outer columns of nodes.
     pub weights_x: Outer<W::Weight>,
-    /// Weights along z.
+    /// Weights of the outer rows of nodes.
     pub weights_z: Outer<W::Weight>,
 }
 
 /// Weights and slopes of the outer nodes; those of the centre are implicit.
 #[derive(Clone, Copy, Debug)]
 pub struct Outer<T> {
-    /// Before and after.
+    /// Of the node before the middle one, and of the node after it.
     pub weights: [T; 2],
-    /// Derivatives.
+    /// Derivatives of these weights.
     pub slopes: [T; 2],
 }
 
@@ -383,7 +383,7 @@ fn lerp<H: Multiply<T>, T: Word>(from: H, to: H, weight: T, site: Site) -> H {
 
 /// The height between nodes h1 to h4 (equation 14; thesis 2.51, 2.52).
 #[inline(always)]
-pub fn mix<H: Multiply<T>, T: Word>(
+pub fn lerp_nodes<H: Multiply<T>, T: Word>(
     [h1, h2, h3, h4]: [H; 4],
     weight_x: T,
     weight_z: T,
@@ -428,6 +428,6 @@ impl<W: Interpolating> SurfaceUnit<W> for Interpolator<W> {
         }
         let weight_z = self.weight(z.fraction(), site);
         let weight_x = self.weight(x.fraction(), site.step(site.operation ^ 1));
-        mix(self.nodes(x, z, site), weight_x, weight_z, site)
+        lerp_nodes(self.nodes(x, z, site), weight_x, weight_z, site)
     }
 }

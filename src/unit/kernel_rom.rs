@@ -6,7 +6,7 @@
 
 use crate::word::{Table, Word};
 
-/// Cycles from a place to the weights of its nodes: kernel ROM and blend. They pass beside the
+/// Cycles from a place to the weights of its nodes: kernel ROM and hat weight. They pass beside the
 /// memory's own; one that is faster waits for them.
 pub const LATENCY: u32 = 2;
 
@@ -37,13 +37,13 @@ impl<T: Word> KernelRom<T> {
         self.weights.log2()
     }
 
-    /// Weights.
+    /// Weights by entry, from 0 to 1.
     #[inline(always)]
     pub fn weights(&self) -> &Table<T> {
         &self.weights
     }
 
-    /// Slopes.
+    /// Derivatives of the weights by entry, per cell.
     #[inline(always)]
     pub fn slopes(&self) -> &Table<T> {
         &self.slopes

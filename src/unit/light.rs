@@ -36,9 +36,9 @@ pub const DESCRIPTION: Description = Description {
 pub struct Light<W: World> {
     /// Direction towards the light in the frame of slopes, times the diffuse share.
     pub toward: [W::Tone; 3],
-    /// The ambient share.
+    /// The share of light from everywhere, from 0 to 1.
     pub ambient: W::Tone,
-    /// One.
+    /// Full light.
     pub one: W::Tone,
     /// Reciprocal square roots of `t / 2^log2`, `0 ≤ t ≤ 4 · 2^log2`.
     pub rsqrt: Arc<Table<W::Tone>>,

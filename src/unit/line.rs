@@ -1,6 +1,6 @@
 //! The wires of one scan line: a structure of arrays, one entry per pixel in flight.
 //!
-//! Every wire stands once, in the list at the end of this file. What passes wires on (test vectors,
+//! Every wire is declared once, in the list at the end of this file. What passes wires on (test vectors,
 //! co-simulation, explanations, overflow counts) names them by [`Wire`].
 
 use crate::frame::Hit;
@@ -16,20 +16,20 @@ pub enum Entry {
     /// The denominator is not positive: the ray never meets the plane.
     Sky,
     /// The quotient is out of range.
-    Far,
+    OutOfRange,
 }
 
 /// What the stepper did for a pixel; its cycles follow from it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Jumps tried against the pyramid.
-    pub trials: u32,
+    /// Skip tests: jumps tried against the pyramid.
+    pub skip_tests: u32,
     /// Samples of the ray compared with the surface.
     pub samples: u32,
-    /// Runs of samples streamed through the interpolator.
-    pub groups: u32,
-    /// Halvings after the hit.
-    pub halvings: u32,
+    /// Sample bursts: runs of samples streamed through the interpolator.
+    pub bursts: u32,
+    /// Bisection steps behind the hit.
+    pub bisection_steps: u32,
     /// Hits: one, or none.
     pub hits: u32,
 }
@@ -201,13 +201,13 @@ macro_rules! wires {
                 }
             }
 
-            /// What it carries.
+            /// What it carries, in half a sentence.
             pub fn meaning(self) -> &'static str {
                 match self {
                     $(Self::$wire => $meaning,)*
                     $(Self::$red | Self::$green | Self::$blue => "channel, 0 to 255",)*
-                    Self::Entry => "0 met, 1 sky, 2 far",
-                    Self::Hit => "0 sky, 1 surface, 2 side, 3 far",
+                    Self::Entry => "0 met, 1 sky, 2 out of range",
+                    Self::Hit => "0 sky, 1 surface, 2 side, 3 out of range",
                     Self::Steps => "index of the sample that hit",
                     Self::Color => "red, green, blue, a byte each",
                 }

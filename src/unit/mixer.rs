@@ -27,7 +27,7 @@ pub const DESCRIPTION: Description = Description {
     multiplier: Register::Shade,
 };
 
-/// The mixer.
+/// The mixer: it needs no coefficient.
 #[derive(Clone, Copy, Debug)]
 pub struct Mixer {
     /// Whether the light drives `shade`; without it the albedo is the lit colour.

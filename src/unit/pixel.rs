@@ -46,7 +46,7 @@ impl Pixel {
         match hit {
             Hit::Surface => None,
             Hit::Sky => Some(self.sky),
-            Hit::Far => Some(self.out_of_range),
+            Hit::OutOfRange => Some(self.out_of_range),
             Hit::Side => Some(self.side),
         }
     }
@@ -74,7 +74,7 @@ impl<W: World> Unit<W> for Pixel {
 
     fn coefficients(&self, bank: &mut Bank<W>) {
         bank.color(C::SkyColor, self.sky);
-        bank.color(C::FarColor, self.out_of_range);
+        bank.color(C::OutOfRangeColor, self.out_of_range);
         bank.color(C::SideColor, self.side);
     }
 

@@ -28,7 +28,7 @@ pub const DESCRIPTION: Description = Description {
     multiplier: Register::Weight,
 };
 
-/// Its cycles.
+/// Cycles of the projector: accumulators add side by side.
 pub const TIMING: Timing = Timing { work: Cycles::every(1), latency: 1, depth: 2 };
 
 /// Coefficients of one accumulator.
@@ -36,9 +36,9 @@ pub const TIMING: Timing = Timing { work: Cycles::every(1), latency: 1, depth: 2
 pub struct Linear<T> {
     /// Value at line 0, column 0.
     pub start: T,
-    /// Increment per line.
+    /// Increment from a line to the next.
     pub per_line: T,
-    /// Increment per column.
+    /// Increment from a column to the next.
     pub per_column: T,
 }
 

@@ -1,7 +1,7 @@
 //! The skip pyramid: for every block of every level, a bound that no surface within a jump's
 //! reach exceeds.
 //!
-//! *In hardware*: one memory with its own port, one read per trial. Level m has blocks of 2^m
+//! *In hardware*: one memory with its own port, one read per skip test. Level m has blocks of 2^m
 //! cells. The bound of block b holds for every place that a ray in the block can reach with a jump
 //! of up to 2^m cells per axis: it is the highest of the nodes with index in
 //! `[(b−1)·2^m − r, (b+2)·2^m + r]`, r = 0 for kernels over 2×2 nodes and 1 over 3×3 (equation 21
@@ -68,7 +68,7 @@ struct Axis {
     blocks: i32,
     /// Index of the first stored bound: −1 where the map ends, 0 elsewhere.
     first: i32,
-    /// Stored bounds.
+    /// Bounds stored per axis.
     stored: i32,
     edge: Edge,
 }
@@ -135,7 +135,7 @@ impl<T: Bound> Pyramid<T> {
         Self { levels, top: level, bounds, edge, columns, rows }
     }
 
-    /// Highest level.
+    /// The highest level that is stored.
     pub fn top(&self) -> u32 {
         self.top
     }

@@ -7,15 +7,15 @@
 //! The walk starts at the eye, or where the ray enters the slab under the highest node. ΔP is V
 //! shifted right and rounded to nearest so that its largest component lies between 2^−k−1 and 2^−k
 //! cells (equation 20). A sample hits if the surface exists there and `y < surface`, strictly; the
-//! first such index is the hit, refined by halvings.
+//! first such index is the hit, refined by bisection.
 //!
 //! | wire in | wire out |
 //! |---|---|
 //! | `view_*`, `entry`, `entry_x`, `entry_z` | `hit`, `ground_x`, `ground_z`, `steps`, `work` |
 //!
-//! *Named outcomes*: `Side` when the last clear place, after the halvings, lies outside the map or in
+//! *Named outcomes*: `Side` when the last clear place, after the bisection, lies outside the map or in
 //! a hole; `Sky` when the ray is out of the map and receding, above the highest node and rising, or
-//! outside the map or in a hole, under the base and falling; `Far` when the last index is reached.
+//! outside the map or in a hole, under the base and falling; `OutOfRange` when the last index is reached.
 //! *Never*: wraps a position (proved at set-up for the last index and the largest jump), passes a
 //! sample that might hit.
 
@@ -58,42 +58,42 @@ pub const DESCRIPTION: Description = Description {
 /// one, shift, end of the walk.
 pub const RAY_START: u32 = 4;
 
-/// Cycles that a hit takes besides its halvings: one for its distance from the eye, which says how
-/// many they are, and one to place it.
+/// Cycles that a hit takes besides its bisection steps: one for its distance from the eye, which says
+/// how many they are, and one to place it.
 pub const RAY_END: u32 = 2;
 
-/// Cycles over a map whose interpolations take so many cycles of reading: every trial waits for the
-/// pyramid, samples stream through the interpolation in groups, halvings wait for each other. With
-/// holes, the bits of the two places between which a hit lies are read once more.
+/// Cycles over a map whose interpolations take this many cycles of reading: every skip test waits for
+/// the pyramid, samples stream through the interpolation in bursts, bisection steps wait for each other.
+/// With holes, the bits of the two places between which a hit lies are read once more.
 pub const fn timing(reads: u32, void_bits: bool, memory_latency: u32) -> Timing {
     let answer = interpolator::height_latency(memory_latency);
     let rim = if void_bits { 2 * reads + answer } else { 0 };
     let work = Cycles {
         item: RAY_START,
-        trial: 1 + memory_latency,
+        skip_test: 1 + memory_latency,
         sample: reads,
-        group: answer,
-        halving: reads + answer,
+        burst: answer,
+        bisection_step: reads + answer,
         hit: RAY_END + rim,
     };
     Timing { work, latency: 1, depth: 2 }
 }
 
-/// How many halvings refine a hit.
+/// How many bisection steps refine a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HalvingRule {
+pub enum BisectionRule {
     /// `bias − e`, e the place of the leading one of the distance to the eye, within `0..=cap`.
     Footprint {
-        /// Halvings at distance one.
+        /// Bisection steps at distance one.
         bias: i32,
-        /// Most halvings: the step still has bits.
+        /// Most bisection steps: the step still has bits.
         cap: u32,
     },
-    /// Always as many.
+    /// The same number for every hit.
     Fixed(u32),
 }
 
-/// The stepper's registers.
+/// The stepper's coefficients, and the memories that it reads.
 #[derive(Clone, Debug)]
 pub struct Stepper<W: World> {
     /// Whether rays start at the eye; else where they enter the slab.
@@ -104,7 +104,7 @@ pub struct Stepper<W: World> {
     pub eye_z: W::Ground,
     /// The eye, y in height units.
     pub eye_y: W::Height,
-    /// The highest node.
+    /// The highest node, height units.
     pub top: W::Height,
     /// Base of the block under the map.
     pub base: W::Height,
@@ -112,8 +112,8 @@ pub struct Stepper<W: World> {
     pub fineness: u32,
     /// Index of the last sample.
     pub last: u32,
-    /// Refinement.
-    pub halvings: HalvingRule,
+    /// How far a hit is refined.
+    pub bisection: BisectionRule,
     /// Bounds for skipping; absent when the stepper is plain.
     pub pyramid: Option<Arc<Pyramid<W::Height>>>,
     /// What an entry beyond the divider's range means: `Sky` where the whole map is within it.
@@ -171,7 +171,7 @@ impl<W: World> Place<W> {
         self.y.is_below(height, site.at(Register::Surface))
     }
 
-    /// A step halved so many times.
+    /// A step halved this many times.
     #[inline(always)]
     #[must_use]
     pub fn halved(self, times: u32) -> Self {
@@ -182,7 +182,7 @@ impl<W: World> Place<W> {
         }
     }
 
-    /// A step doubled so many times.
+    /// A step doubled this many times.
     #[inline(always)]
     #[must_use]
     pub fn doubled(self, times: u32) -> Self {
@@ -214,13 +214,13 @@ pub struct Heading {
 /// The end of a walk.
 #[derive(Clone, Copy, Debug)]
 pub struct Walk<W: World> {
-    /// Outcome.
+    /// What the ray meets.
     pub hit: Hit,
     /// Refined place of a hit; elsewhere the last place reached.
     pub place: Place<W>,
     /// Index of the sample that hit, or of the last one.
     pub index: u32,
-    /// What it took.
+    /// What the walk took.
     pub work: Work,
 }
 
@@ -230,11 +230,11 @@ impl<W: World> Stepper<W> {
         match line.entry[i] {
             _ if self.from_eye => Some(self.eye()),
             Entry::Met => Some(Place { x: line.entry_x[i], y: self.top, z: line.entry_z[i] }),
-            Entry::Sky | Entry::Far => None,
+            Entry::Sky | Entry::OutOfRange => None,
         }
     }
 
-    /// The eye.
+    /// The eye as a place on the map.
     #[inline(always)]
     pub fn eye(&self) -> Place<W> {
         Place { x: self.eye_x, y: self.eye_y, z: self.eye_z }
@@ -263,10 +263,10 @@ impl<W: World> Stepper<W> {
 
     /// Bisection steps at a place (equation 22).
     #[inline(always)]
-    pub fn halvings_at(&self, place: Place<W>, site: Site) -> u32 {
-        match self.halvings {
-            HalvingRule::Fixed(times) => times,
-            HalvingRule::Footprint { bias, cap } => {
+    pub fn bisection_steps_at(&self, place: Place<W>, site: Site) -> u32 {
+        match self.bisection {
+            BisectionRule::Fixed(times) => times,
+            BisectionRule::Footprint { bias, cap } => {
                 let away = place.minus(self.eye());
                 let leading = away
                     .x
@@ -298,13 +298,13 @@ impl<W: World> Stepper<W> {
                 return Walk { hit: Hit::Sky, place, index, work };
             }
             if index >= self.last {
-                return Walk { hit: Hit::Far, place, index, work };
+                return Walk { hit: Hit::OutOfRange, place, index, work };
             }
             let mut run = 1;
             if let Some(pyramid) = &self.pyramid {
                 let jump = 1 << (level + self.fineness);
                 if jump <= self.last - index {
-                    work.trials += 1;
+                    work.skip_tests += 1;
                     let ahead = place.plus(step.doubled(level + self.fineness));
                     let [i, j] = place.cell(here);
                     let there = at_sample(site, index + jump);
@@ -325,7 +325,7 @@ impl<W: World> Stepper<W> {
                 // No jump is clear: test the samples of one cell before trying again.
                 run = (1 << self.fineness).min(self.last - index);
             }
-            work.groups += 1;
+            work.bursts += 1;
             for _ in 0..run {
                 place = place.plus(step);
                 index += 1;
@@ -356,12 +356,12 @@ impl<W: World> Stepper<W> {
         mut work: Work,
     ) -> Walk<W> {
         work.hits = 1;
-        let times = self.halvings_at(hit, at_sample(site, index));
+        let times = self.bisection_steps_at(hit, at_sample(site, index));
         let (mut clear, mut met) = (hit.minus(step), hit);
-        for halving in 1..=times {
-            work.halvings += 1;
-            let middle = clear.plus(step.halved(halving));
-            let here = at_bisection(site, halving);
+        for round in 1..=times {
+            work.bisection_steps += 1;
+            let middle = clear.plus(step.halved(round));
+            let here = at_bisection(site, round);
             if surface.contains(middle.x, middle.z, here) && middle.is_under(surface, here) {
                 met = middle;
             } else {
@@ -434,7 +434,8 @@ impl<W: Interpolating> Unit<W> for Stepper<W> {
     fn run(&self, line: &mut Line<W>) {
         for i in 0..line.len() {
             let Some(start) = self.start(line, i) else {
-                line.hit[i] = if line.entry[i] == Entry::Far { self.beyond } else { Hit::Sky };
+                line.hit[i] =
+                    if line.entry[i] == Entry::OutOfRange { self.beyond } else { Hit::Sky };
                 line.steps[i] = 0;
                 line.work[i] = Work::default();
                 continue;
@@ -463,9 +464,9 @@ impl<W: Interpolating> Unit<W> for Stepper<W> {
         bank.number(C::Last, self.last);
         bank.number(C::BeyondSky, self.beyond == Hit::Sky);
         heights.coefficients(bank);
-        let (fixed, bias, cap) = match self.halvings {
-            HalvingRule::Fixed(times) => (true, 0, times),
-            HalvingRule::Footprint { bias, cap } => (false, bias, cap),
+        let (fixed, bias, cap) = match self.bisection {
+            BisectionRule::Fixed(times) => (true, 0, times),
+            BisectionRule::Footprint { bias, cap } => (false, bias, cap),
         };
         bank.number(C::BisectionFixed, fixed);
         bank.number(C::BisectionBias, bias);
@@ -481,9 +482,9 @@ impl<W: Interpolating> Unit<W> for Stepper<W> {
 
     fn reads(&self, work: Work, _: Hit) -> Reads {
         let each = self.surface.reads_per_height();
-        let interpolations = u64::from(work.samples + work.halvings);
+        let interpolations = u64::from(work.samples + work.bisection_steps);
         Reads {
-            memory: u64::from(work.trials) + interpolations * each.memory,
+            memory: u64::from(work.skip_tests) + interpolations * each.memory,
             table: interpolations * each.table,
         }
     }
@@ -497,6 +498,6 @@ fn at_sample(site: Site, index: u32) -> Site {
 
 /// Where a bisection step is, apart from all samples.
 #[inline(always)]
-fn at_bisection(site: Site, halving: u32) -> Site {
-    site.step(1 << 30 | halving << 3)
+fn at_bisection(site: Site, round: u32) -> Site {
+    site.step(1 << 30 | round << 3)
 }

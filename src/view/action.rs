@@ -4,7 +4,7 @@ use crate::sink::picture::Picture;
 
 use super::camera::Course;
 
-/// A side of the divider.
+/// A side of the split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Left of it, or everything where there is none.
@@ -22,14 +22,14 @@ pub enum Action {
     NextEngine(Side),
     /// The next shape of the finite function.
     NextShape,
-    /// The next deformation.
+    /// Go on to the next deformation: 0, 1, 2.
     NextDeformation,
     /// Add to d of the weight 2^-d.
     Weight(i32),
-    /// Put the divider up, or take it away.
-    ToggleDivider,
-    /// Move the divider to a place across the raster, 0..=1.
-    MoveDivider(f64),
+    /// Split the raster in two, or show one picture again.
+    ToggleSplit,
+    /// Move the split to a place across the raster, 0..=1.
+    MoveSplit(f64),
     /// Stop the scan or let it go on.
     TogglePause,
     /// Draw one line and stop.
@@ -44,7 +44,7 @@ pub enum Action {
     TogglePanels,
     /// Back to the scene's camera.
     Reset,
-    /// Turn as if the scene were dragged by so many window pixels, right and down.
+    /// Turn as if the scene were dragged by this many window pixels, right and down.
     Drag(f64, f64),
     /// Turn by degrees: heading to the left, nose up, right wing down.
     Turn(f64, f64, f64),
@@ -52,7 +52,7 @@ pub enum Action {
     Zoom(f64),
     /// Move along the line of sight by notches.
     Dolly(f64),
-    /// Fly along a course for so many seconds.
+    /// Fly along a course for this many seconds.
     Fly(Course, f64),
     /// The cursor is at a place of the window, or has left it.
     Point(Option<(i32, i32)>),

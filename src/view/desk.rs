@@ -120,7 +120,7 @@ impl Desk {
         self.state().lines > 0
     }
 
-    /// Shows a snapshot.
+    /// Takes over a new snapshot.
     pub fn show(&self, snapshot: Snapshot) {
         self.state().snapshot = Arc::new(snapshot);
     }

@@ -43,7 +43,7 @@ pub struct Input {
     pub wheel: f64,
 }
 
-/// Window pixels from the divider within which it is taken hold of.
+/// Window pixels from the split within which it is taken hold of.
 const GRIP: i32 = 6;
 
 /// Window pixels that a click may slip.
@@ -65,7 +65,7 @@ enum Hold {
         last: (i32, i32),
         moved: bool,
     },
-    Divider,
+    Split,
 }
 
 /// Turns input into actions.
@@ -87,7 +87,7 @@ impl Hands {
         &mut self,
         input: &Input,
         layout: &Layout,
-        divider: Option<f64>,
+        split: Option<f64>,
         seconds: f64,
     ) -> Vec<Action> {
         let mut actions: Vec<Action> = input
@@ -98,7 +98,7 @@ impl Hands {
                 (key, _) => of(key),
             })
             .collect();
-        self.mouse(input, layout, divider, &mut actions);
+        self.mouse(input, layout, split, &mut actions);
         actions.extend(flight(input, seconds));
         actions
     }
@@ -107,7 +107,7 @@ impl Hands {
         &mut self,
         input: &Input,
         layout: &Layout,
-        divider: Option<f64>,
+        split: Option<f64>,
         actions: &mut Vec<Action>,
     ) {
         if input.cursor != self.cursor {
@@ -125,18 +125,18 @@ impl Hands {
         };
         match (input.button, self.hold) {
             (true, Hold::Nothing) => {
-                let near = divider
+                let near = split
                     .is_some_and(|place| (layout.across(place) as i32 - cursor.0).abs() <= GRIP);
                 self.hold = if near {
-                    Hold::Divider
+                    Hold::Split
                 } else {
                     Hold::Scene { from: cursor, last: cursor, moved: false }
                 };
             }
-            (true, Hold::Divider) => {
+            (true, Hold::Split) => {
                 let width = (layout.columns * layout.scale).max(1) as f64;
                 let place = f64::from(cursor.0 - layout.left as i32) / width;
-                actions.push(Action::MoveDivider(place));
+                actions.push(Action::MoveSplit(place));
             }
             (true, Hold::Scene { from, last, moved }) => {
                 let slipped = |a: i32, b: i32| (a - b).abs() > SLIP;
@@ -172,7 +172,7 @@ fn of(key: Key) -> Option<Action> {
         Key::Char('j' | 'J') => Action::NextDeformation,
         Key::Char('[') => Action::Weight(-1),
         Key::Char(']') => Action::Weight(1),
-        Key::Char('/') => Action::ToggleDivider,
+        Key::Char('/') => Action::ToggleSplit,
         Key::Char(' ') => Action::TogglePause,
         Key::Char('.') => Action::OneLine,
         Key::Char('+' | '=') => Action::Faster,
@@ -244,10 +244,10 @@ mod tests {
     }
 
     #[test]
-    fn the_divider_is_dragged_where_it_is_gripped() {
+    fn the_split_is_dragged_where_it_is_gripped() {
         let mut hands = Hands::default();
         assert_eq!(tick(&mut hands, (104, 30), true), []);
-        assert_eq!(tick(&mut hands, (50, 80), true), [Action::MoveDivider(0.25)]);
+        assert_eq!(tick(&mut hands, (50, 80), true), [Action::MoveSplit(0.25)]);
         assert_eq!(tick(&mut hands, (50, 80), false), []);
     }
 

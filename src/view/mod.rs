@@ -8,9 +8,9 @@
 //!
 //! - [`mod@input`]: keys and mouse of one tick, and [`input::Hands`], which turn them into actions
 //!   ([`action`]).
-//! - [`script`]: the same from a text, for runs without hands.
+//! - [`script`]: the same from a text, for unattended runs.
 //! - [`session`]: what is being looked at and how; actions change it. [`camera`] moves the craft,
-//!   [`pane`] says what each side of the divider shows.
+//!   [`pane`] says what each side of the split shows.
 //! - [`worker`]: the render worker, a thread that draws what the session orders ([`order`]) and
 //!   hands out [`snapshot`]s over a [`desk`]: in `passes` from coarse (`preview`) to fine, with the
 //!   state of `renderer`.

@@ -10,9 +10,9 @@ use crate::scene::Scene;
 pub struct Order {
     /// The scene; its first screen is drawn, of at most [`MAX_PIXELS`].
     pub scene: Arc<Scene>,
-    /// Every unit fitted.
+    /// Every unit is fitted, as with `--full`.
     pub full: bool,
-    /// Left and, where there is a divider, right.
+    /// Left and, where there is a split, right.
     pub panes: Vec<Pane>,
     /// Lines as they are granted; otherwise whole frames.
     pub by_lines: bool,
@@ -22,7 +22,7 @@ pub struct Order {
 pub const MAX_PIXELS: usize = 1 << 24;
 
 impl Order {
-    /// Columns and lines.
+    /// Columns and lines of the screen.
     #[must_use]
     pub fn raster(&self) -> (usize, usize) {
         let screen = &self.scene.screens[0];

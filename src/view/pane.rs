@@ -1,4 +1,4 @@
-//! What one side of the divider shows: a picture, and the engine that draws it.
+//! What one side of the split shows: a picture, and the engine that draws it.
 
 use crate::engine::Engine;
 use crate::sink::picture::Picture;
@@ -6,9 +6,9 @@ use crate::sink::picture::Picture;
 /// A picture by an engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pane {
-    /// Its engine.
+    /// The engine that draws it.
     pub engine: Engine,
-    /// What is seen.
+    /// The picture that it shows.
     pub picture: Picture,
 }
 

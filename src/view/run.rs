@@ -123,7 +123,7 @@ impl<'a> View<'a> {
         Ok(())
     }
 
-    /// Runs so many frames, with the script's input in the first of them, and returns the last
+    /// Runs this many frames, with the script's input in the first of them, and returns the last
     /// picture, which is drawn to its end.
     ///
     /// # Errors
@@ -161,8 +161,8 @@ impl<'a> View<'a> {
         if acted {
             self.session.resize(layout);
         }
-        let divider = self.session.divider();
-        for action in self.hands.actions(input, &layout, divider, seconds) {
+        let split = self.session.split();
+        for action in self.hands.actions(input, &layout, split, seconds) {
             acted = true;
             let effect = self.session.act(action);
             // A line or an explanation is of the order as it is now.

@@ -21,7 +21,7 @@ pub struct Session {
     map: Option<String>,
     first: (Camera, Screen),
     panes: [Pane; 2],
-    divider: Option<f64>,
+    split: Option<f64>,
     /// Of deformation 2, while another one is on.
     weight_shift: u32,
     pace: Pace,
@@ -65,14 +65,14 @@ impl Session {
         let mut session = Self {
             first: (scene.camera.clone(), scene.screens[0].clone()),
             weight_shift: match scene.kernel.deformation {
-                Deformation::Blend { weight_shift } => weight_shift,
+                Deformation::TowardHat { weight_shift } => weight_shift,
                 _ => 2,
             },
             scene,
             full,
             map,
             panes: [pane, right],
-            divider: None,
+            split: None,
             pace: Pace::default(),
             layout,
             cursor: None,
@@ -100,13 +100,13 @@ impl Session {
     /// The panes that are seen, left first.
     #[must_use]
     pub fn panes(&self) -> &[Pane] {
-        &self.panes[..1 + usize::from(self.divider.is_some())]
+        &self.panes[..1 + usize::from(self.split.is_some())]
     }
 
-    /// Place of the divider across the raster, 0..=1.
+    /// Place of the split across the raster, 0..=1.
     #[must_use]
-    pub fn divider(&self) -> Option<f64> {
-        self.divider
+    pub fn split(&self) -> Option<f64> {
+        self.split
     }
 
     /// Pace of the scan.
@@ -171,7 +171,7 @@ impl Session {
         self.pace.advance(seconds)
     }
 
-    /// Does an action.
+    /// Changes the session; what the loop has to do as well is returned.
     pub fn act(&mut self, action: Action) -> Option<Effect> {
         if !matches!(action, Action::Point(_)) {
             self.notice = None;
@@ -182,12 +182,12 @@ impl Session {
             Action::NextShape => self.next_shape(),
             Action::NextDeformation => self.next_deformation(),
             Action::Weight(step) => self.add_weight(step),
-            Action::ToggleDivider => {
-                self.divider = if self.divider.is_some() { None } else { Some(0.5) };
+            Action::ToggleSplit => {
+                self.split = if self.split.is_some() { None } else { Some(0.5) };
                 self.changed = true;
             }
-            Action::MoveDivider(place) => {
-                self.divider = self.divider.map(|_| place.clamp(0.0, 1.0));
+            Action::MoveSplit(place) => {
+                self.split = self.split.map(|_| place.clamp(0.0, 1.0));
             }
             Action::TogglePause => self.set_pace(Pace::toggle_pause),
             Action::Faster => self.set_pace(Pace::faster),
@@ -245,8 +245,8 @@ impl Session {
     }
 
     fn set_pane(&mut self, side: Side, change: impl FnOnce(Pane) -> Pane) {
-        if side == Side::Right && self.divider.is_none() {
-            self.divider = Some(0.5);
+        if side == Side::Right && self.split.is_none() {
+            self.split = Some(0.5);
         }
         let pane = &mut self.panes[usize::from(side == Side::Right)];
         *pane = change(*pane);
@@ -289,8 +289,8 @@ impl Session {
         let weight_shift = self.weight_shift;
         self.scene.kernel.deformation = match self.scene.kernel.deformation {
             Deformation::None => Deformation::Stretch,
-            Deformation::Stretch => Deformation::Blend { weight_shift },
-            Deformation::Blend { .. } => Deformation::None,
+            Deformation::Stretch => Deformation::TowardHat { weight_shift },
+            Deformation::TowardHat { .. } => Deformation::None,
         };
         self.kernel_changed();
     }
@@ -299,7 +299,7 @@ impl Session {
         if !self.has_kernel() {
             return;
         }
-        let Deformation::Blend { weight_shift } = self.scene.kernel.deformation else {
+        let Deformation::TowardHat { weight_shift } = self.scene.kernel.deformation else {
             self.notice = Some("only deformation 2 has a weight: press J".into());
             return;
         };
@@ -307,7 +307,7 @@ impl Session {
         let largest = LARGEST_SHIFT.max(weight_shift);
         let weight_shift = weight_shift.saturating_add_signed(step).min(largest);
         self.weight_shift = weight_shift;
-        self.scene.kernel.deformation = Deformation::Blend { weight_shift };
+        self.scene.kernel.deformation = Deformation::TowardHat { weight_shift };
         self.kernel_changed();
     }
 

@@ -17,14 +17,14 @@ pub enum LineState {
     Old,
     /// Enlarged from a coarser raster, or sampled.
     Preview,
-    /// As it is.
+    /// The line is drawn.
     Drawn,
 }
 
 /// A pane's picture, as far as it is drawn.
 #[derive(Clone, Debug)]
 pub struct Image {
-    /// What it shows.
+    /// Picture and engine that it shows.
     pub pane: Pane,
     /// Pixels across.
     pub columns: usize,
@@ -32,7 +32,7 @@ pub struct Image {
     pub lines: usize,
     /// sRGB bytes, line by line from the top.
     pub pixels: Vec<[u8; 3]>,
-    /// One per line.
+    /// State of each line, from the top.
     pub states: Vec<LineState>,
     /// What its ramp stands for.
     pub legend: Option<Legend>,
@@ -41,7 +41,7 @@ pub struct Image {
 }
 
 impl Image {
-    /// Nothing drawn.
+    /// A picture of which nothing is drawn yet.
     #[must_use]
     pub fn blank(pane: Pane, columns: usize, lines: usize) -> Self {
         Self {
@@ -105,9 +105,9 @@ impl Image {
 /// How long a whole frame took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
-    /// What was drawn.
+    /// What the time was spent on.
     pub source: Source,
-    /// Milliseconds, coefficient set-up in, maps and tables out.
+    /// Milliseconds, with coefficient set-up, without maps and tables.
     pub ms: f64,
 }
 
@@ -116,7 +116,7 @@ pub struct Timing {
 pub struct FrameRate {
     /// Frames per second at the scene's clock.
     pub fps: f64,
-    /// Clock in MHz.
+    /// Clock of the machine, MHz.
     pub clock_mhz: f64,
     /// Lines whose cycles were counted.
     pub counted: u32,
@@ -144,9 +144,9 @@ pub struct Facts {
 pub struct Snapshot {
     /// Grows with every snapshot.
     pub version: u64,
-    /// Left and, where there is a divider, right.
+    /// Left and, where there is a split, right.
     pub images: Vec<Arc<Image>>,
-    /// Measurements.
+    /// What was measured and found beside the pictures.
     pub facts: Facts,
     /// The line that the scan draws next; `None` at the full rate when all is drawn.
     pub scan: Option<u32>,

@@ -40,7 +40,7 @@ impl RenderWorker {
         Ok(Self { desk, thread: Some(thread) })
     }
 
-    /// Draw this instead.
+    /// Draws this instead of what it draws now.
     pub fn order(&self, order: Order) {
         self.desk.supersede(|state| {
             state.order = Some(order);

@@ -57,7 +57,7 @@ impl std::fmt::Display for Fixed {
 }
 
 impl Overflow {
-    /// All of them.
+    /// Both, in the order in which messages list them.
     pub const ALL: [Self; 2] = [Self::Wrap, Self::Saturate];
 
     /// Name in scene files, options and headers of test vectors.
@@ -75,7 +75,7 @@ impl Overflow {
 }
 
 impl Rounding {
-    /// All of them.
+    /// All of them, in the order in which messages list them.
     pub const ALL: [Self; 5] =
         [Self::Floor, Self::TowardZero, Self::Nearest, Self::NearestEven, Self::Stochastic];
 
@@ -121,9 +121,9 @@ impl Rounding {
     }
 }
 
-/// A well-mixed hash of two words (the finaliser of SplitMix64, applied twice): the source of
+/// A hash of two words whose bits all depend on all bits (the finaliser of SplitMix64, applied twice): the source of
 /// random bits, a function of its place alone, so that the order of operations does not matter.
-pub fn mix(seed: u64, place: u64) -> u64 {
+pub fn hash(seed: u64, place: u64) -> u64 {
     let round = |mut z: u64| {
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

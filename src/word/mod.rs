@@ -302,7 +302,7 @@ pub trait Load: Word {
     /// finite.
     fn load(value: f64, format: Self::Format) -> Option<Self>;
 
-    /// The word of these bits, or `None` where the register has not so many, or no bits at all.
+    /// The word of these bits, or `None` where the register has fewer bits, or none at all.
     fn load_raw(bits: i64, format: Self::Format) -> Option<Self>;
 }
 

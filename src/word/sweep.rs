@@ -8,7 +8,7 @@
 use std::cmp::Ordering;
 use std::ops::{Add, Neg, Sub};
 
-use super::format::mix;
+use super::format::hash;
 use super::{
     Cell, Divide, Enter, Fixed, Load, Multiply, Overflow, Ratio, Readout, Register, Rescale,
     Rounding, Site, Table, Word, World, array,
@@ -61,7 +61,7 @@ impl SweepFormat {
     fn random(self, site: Site) -> u64 {
         let place = u64::from(site.line) << 32 | u64::from(site.column);
         let operation = u64::from(site.operation) << 8 | site.register as u64;
-        mix(mix(u64::from(self.seed), place), operation)
+        hash(hash(u64::from(self.seed), place), operation)
     }
 
     fn rounded(self, value: i128, places: u32, site: Site, overflowed: bool) -> SweepWord {

@@ -19,7 +19,7 @@ pub struct Operations {
     pub products: u64,
     /// Ratios, each by a divider array.
     pub ratios: u64,
-    /// Variable shifts.
+    /// Shifts by a number of places that is not known at set-up.
     pub shifts: u64,
 }
 

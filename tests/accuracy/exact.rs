@@ -31,7 +31,7 @@ fn hits(frame: &Frame) -> impl Iterator<Item = (f64, f64, f64, [f64; 3])> + '_ {
 #[test]
 fn constant_maps_are_exact_under_every_kernel() {
     let mut deformations = vec![Deformation::None, Deformation::Stretch];
-    deformations.extend([0, 1, 5, 40].map(|weight_shift| Deformation::Blend { weight_shift }));
+    deformations.extend([0, 1, 5, 40].map(|weight_shift| Deformation::TowardHat { weight_shift }));
     for height in [0.0, 7.25, -3.625, 1.0 / 3.0] {
         for shape in SHAPES {
             for &deformation in &deformations {
@@ -87,7 +87,7 @@ fn gentle_slopes_are_within_a_bit_under_the_hat() {
     let mut scene = over(map(21, 21, |i, j| plane(i as f64, j as f64) as f32), 48, 40);
     scene.kernel = Kernel {
         shape: KernelShape::Hat,
-        deformation: Deformation::Blend { weight_shift: 3 },
+        deformation: Deformation::TowardHat { weight_shift: 3 },
         table: 16,
     };
     let ulps = [2_f64.powi(-20), 2_f64.powi(-24)];
@@ -109,7 +109,7 @@ fn a_large_weight_shift_is_the_hat() {
     for shape in SHAPES {
         let mut shifted = over(bumps(), 40, 30);
         shifted.kernel =
-            Kernel { shape, deformation: Deformation::Blend { weight_shift: 64 }, table: 64 };
+            Kernel { shape, deformation: Deformation::TowardHat { weight_shift: 64 }, table: 64 };
         let mut hat = shifted.clone();
         hat.kernel = Kernel { shape: KernelShape::Hat, deformation: Deformation::None, table: 64 };
         for (a, b) in frames(&shifted).iter().zip(&frames(&hat)) {

@@ -55,7 +55,7 @@ fn any_map_is_whole_on_the_screen() {
             let ground = hits["surface"].as_u64().unwrap() + hits["side"].as_u64().unwrap();
             // A strip of one cell is a line of a few pixels on any screen.
             assert!(ground > 20, "{name} at {size}: {hits}");
-            assert_eq!(hits["far"], 0, "{name} at {size}");
+            assert_eq!(hits["out_of_range"], 0, "{name} at {size}");
             let edge = |x: u32, y: u32| x == 0 || y == 0 || x + 1 == columns || y + 1 == lines;
             for (x, y, pixel) in pixels.enumerate_pixels() {
                 assert!(!edge(x, y) || pixel.0 == SKY, "{name} at {size}: ground at {x}, {y}");

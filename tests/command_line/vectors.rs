@@ -73,9 +73,9 @@ fn vectors_that_cannot_be_written() {
             assert!(message.contains(word), "{options:?}: no {word:?} in {message}");
         }
     };
-    vectors(&["-o", "file"], &["file", "is there already", "remove"]);
-    vectors(&["-o", "there"], &["there", "is there already"]);
-    vectors(&["-o", "."], &["is there already"]);
+    vectors(&["-o", "file"], &["file", "exists already", "remove"]);
+    vectors(&["-o", "there"], &["there", "exists already"]);
+    vectors(&["-o", "."], &["exists already"]);
     vectors(&["-o", "file/out"], &["file is not a folder"]);
     vectors(&["-o", "missing/out"], &["there is no folder missing", "create it"]);
     for lines in ["0", "3..3", "5..2", "0..9", "8..9", "x", "1..", "..", "-1", "4294967296", ""] {

@@ -207,7 +207,7 @@ fn repeated_maps_do_not_depend_on_skipping() {
 fn kernels() -> Vec<terraline::scene::Kernel> {
     use terraline::scene::{Deformation, Kernel};
     let deformations =
-        [Deformation::None, Deformation::Stretch, Deformation::Blend { weight_shift: 1 }];
+        [Deformation::None, Deformation::Stretch, Deformation::TowardHat { weight_shift: 1 }];
     super::support::SHAPES
         .into_iter()
         .flat_map(|shape| deformations.map(|deformation| Kernel { shape, deformation, table: 64 }))

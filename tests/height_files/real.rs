@@ -10,7 +10,7 @@ use terraline::scene::{Encoding, HeightFile};
 fn file(name: &str) -> Option<HeightFile> {
     let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/dem").join(name);
     if !path.exists() {
-        println!("skipped: {} is not there", path.display());
+        println!("skipped: {} does not exist", path.display());
         return None;
     }
     Some(source::read(&path, Encoding::Stored).unwrap_or_else(|error| panic!("{error}")))

@@ -102,7 +102,7 @@ fn under_every_rule(path: &Path, size: [u32; 2], voids: usize, fill: f32) {
             assert!(if old.is_nan() { changed } else { sample == old });
         }
         let whole = draw(&filled);
-        assert_eq!(count(&whole, Hit::Far), 0);
+        assert_eq!(count(&whole, Hit::OutOfRange), 0);
         assert!(count(&whole, Hit::Surface) > count(&frame, Hit::Surface), "{rule}");
         let was_hole = seen(&whole, filling.cell).filter(|(_, at)| !has_ground(&terrain_of, *at));
         assert!(was_hole.count() > 0, "{rule}: {path:?}");
@@ -177,7 +177,7 @@ fn real_files_with_voids_are_drawn_by_their_rule() {
     ] {
         let path = folder.join(name);
         if !path.exists() {
-            println!("skipped: {} is not there", path.display());
+            println!("skipped: {} does not exist", path.display());
             continue;
         }
         under_every_rule(&path, [240, 150], voids, fill);

@@ -13,7 +13,7 @@ pub fn folder() -> TempDir {
 /// A frame with every outcome, misses and values of many sizes.
 pub fn frame(columns: usize, lines: usize) -> Frame {
     let n = columns * lines;
-    let outcome = |i: usize| [Hit::Surface, Hit::Sky, Hit::Side, Hit::Far][i % 4];
+    let outcome = |i: usize| [Hit::Surface, Hit::Sky, Hit::Side, Hit::OutOfRange][i % 4];
     let value = |i: usize, scale: f64| if i % 4 == 1 { f64::NAN } else { i as f64 / 7.0 * scale };
     let mut frame = Frame::with_room(columns, lines, true);
     for i in 0..n {

@@ -18,7 +18,7 @@ use proptest::test_runner::TestRunner;
 use tempfile::TempDir;
 use terraline::engine::{Engine, FixedWorld};
 use terraline::frame::Frame;
-use terraline::plan::{Ground, Plan};
+use terraline::plan::{Plan, SurfacePlan};
 use terraline::scene::file::{Document, parse};
 use terraline::scene::{Scene, SceneError, Surface, builtin, framing, write};
 use terraline::setup::SetupError;
@@ -201,9 +201,9 @@ fn draw(mut scene: Scene, stages: &AtomicUsize) -> Result<(), Stop> {
     for screen in &mut scene.screens {
         *screen = screen.resized(16, 12);
     }
-    let steps = match Plan::new(&scene, None, false).map_err(refused)?.ground {
-        Ground::Terrain(walk) => walk.last,
-        Ground::Plane(_) => 0,
+    let steps = match Plan::new(&scene, None, false).map_err(refused)?.surface {
+        SurfacePlan::Terrain(walk) => walk.last,
+        SurfacePlan::Plane(_) => 0,
     };
     // Rays that hardly move, or run along cliffs, take most of their steps.
     if steps > MOST_STEPS {

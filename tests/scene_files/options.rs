@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use terraline::scene::{
-    Angles, Attitude, Extent, Halvings, NoData, Outside, Scene, SceneError, Surface, load,
+    Angles, Attitude, Bisection, Extent, NoData, Outside, Scene, SceneError, Surface, load,
 };
 
 use super::{EVERY_TABLE, angles, assert_says, scene, terrain, try_scene};
@@ -44,7 +44,7 @@ fn options_override_the_file() {
     assert_eq!((terrain(&scene).offset, terrain(&scene).scale), (5.0, 1.0));
     assert_eq!(scene.color.ramp, [[0, 0, 0], [9, 9, 9], [255, 255, 255]]);
     assert_eq!((scene.formats[2].0.name(), scene.formats[2].1.width), ("height", 24));
-    assert_eq!((scene.stepper.halvings, scene.seed), (Halvings::Footprint, 4));
+    assert_eq!((scene.stepper.halvings, scene.seed), (Bisection::Footprint, 4));
 }
 
 #[test]

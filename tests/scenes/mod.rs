@@ -20,11 +20,11 @@ pub const SHAPES: [KernelShape; 4] =
 pub const DEFORMATIONS: [Deformation; 7] = [
     Deformation::None,
     Deformation::Stretch,
-    Deformation::Blend { weight_shift: 0 },
-    Deformation::Blend { weight_shift: 1 },
-    Deformation::Blend { weight_shift: 2 },
-    Deformation::Blend { weight_shift: 9 },
-    Deformation::Blend { weight_shift: 40 },
+    Deformation::TowardHat { weight_shift: 0 },
+    Deformation::TowardHat { weight_shift: 1 },
+    Deformation::TowardHat { weight_shift: 2 },
+    Deformation::TowardHat { weight_shift: 9 },
+    Deformation::TowardHat { weight_shift: 40 },
 ];
 
 /// Every kernel under every deformation.

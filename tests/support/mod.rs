@@ -10,7 +10,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use terraline::engine::{Engine, Machine, Memories};
-use terraline::frame::{Entry, Frame, Giver, Hit};
+use terraline::frame::{BufferRow, Frame, Giver, Hit};
 use terraline::oracle::Oracle;
 use terraline::plan::{Plan, PlanError};
 use terraline::scene::{
@@ -148,13 +148,13 @@ pub fn difference(a: &Frame, b: &Frame) -> Option<String> {
     if (a.columns, a.lines) != (b.columns, b.lines) {
         return Some(format!("{}x{} against {}x{}", a.columns, a.lines, b.columns, b.lines));
     }
-    let of_all = |(entry, _): &(&Entry, _)| entry.giver == Giver::Engines;
+    let of_all = |(row, _): &(&BufferRow, _)| row.giver == Giver::Engines;
     let (mut ours, mut theirs) = (a.arrays().filter(of_all), b.arrays().filter(of_all));
     loop {
         match (ours.next(), theirs.next()) {
             (None, None) => return None,
-            (Some((entry, p)), Some((other, q))) if entry.name == other.name => {
-                let pixel = entry.components;
+            (Some((row, p)), Some((other, q))) if row.name == other.name => {
+                let pixel = row.components;
                 if p.pieces(1 << 14).eq(q.pieces(1 << 14)) {
                     continue;
                 }
@@ -164,7 +164,7 @@ pub fn difference(a: &Frame, b: &Frame) -> Option<String> {
                 return Some(format!(
                     "{} at column {}, line {}: bytes {p:02x?} against {q:02x?}; {} of {} pixels \
                      differ",
-                    entry.name,
+                    row.name,
                     at % a.columns,
                     at / a.columns,
                     differ.len(),

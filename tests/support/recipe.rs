@@ -6,16 +6,16 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use terraline::plan::geometry::Geometry;
 use terraline::scene::{
-    Angles, Attitude, Deformation, Extent, Halvings, HeightMap, Kernel, KernelShape, Outside,
+    Angles, Attitude, Bisection, Deformation, Extent, HeightMap, Kernel, KernelShape, Outside,
     Scene, Screen, StepperMode,
 };
-use terraline::word::format::mix;
+use terraline::word::format::hash;
 
 use super::{SHAPES, ground_under, map, over, terrain};
 
 /// What the nodes of a random map are.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Relief {
+pub enum Landscape {
     Noise,
     Slopes,
     Spikes,
@@ -29,7 +29,7 @@ pub enum Voids {
     None,
     /// A share of all nodes, here and there.
     Scattered(f64),
-    /// Whole blocks, of so many nodes a side.
+    /// Whole blocks, of this many nodes a side.
     Blocks(usize),
     /// The outermost nodes.
     Border,
@@ -37,7 +37,7 @@ pub enum Voids {
     Grid,
 }
 
-/// Where the eye is; lengths are shares of the map's extent, heights shares of its relief.
+/// Where the eye is; lengths are shares of the map's extent, heights shares of its height range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Eye {
     /// Over the map and over its highest node.
@@ -63,11 +63,11 @@ pub enum Turn {
 #[derive(Clone, Debug)]
 pub struct Recipe {
     pub nodes: (usize, usize),
-    pub relief: Relief,
+    pub landscape: Landscape,
     pub voids: Voids,
     pub seed: u64,
     pub cell: (f64, f64),
-    /// Relief in cells of mean size.
+    /// Height range in cells of mean size.
     pub steepness: f64,
     pub offset: f64,
     pub outside: Outside,
@@ -75,7 +75,7 @@ pub struct Recipe {
     pub kernel: Kernel,
     pub mode: StepperMode,
     pub fineness: u32,
-    pub halvings: Halvings,
+    pub bisection: Bisection,
     pub eye: Eye,
     /// Eye on whole cells, angles in steps of 45 degrees.
     pub snapped: bool,
@@ -93,11 +93,11 @@ impl Recipe {
     fn heights(&self) -> HeightMap {
         let (columns, rows) = self.nodes;
         let random = |i: usize, j: usize| {
-            (mix(self.seed, (j * columns + i) as u64) >> 40) as f32 / (1 << 23) as f32 - 1.0
+            (hash(self.seed, (j * columns + i) as u64) >> 40) as f32 / (1 << 23) as f32 - 1.0
         };
         let (a, b) = (random(columns, rows), random(rows, columns + 1));
         map(columns, rows, |i, j| {
-            let chance = |i: usize, j: usize| mix(!self.seed, (j * columns + i) as u64) % 1000;
+            let chance = |i: usize, j: usize| hash(!self.seed, (j * columns + i) as u64) % 1000;
             let void = match self.voids {
                 Voids::None => false,
                 Voids::Scattered(share) => (chance(i, j) as f64) < 1000.0 * share,
@@ -111,14 +111,14 @@ impl Recipe {
             }
             let noise = random(i, j);
             100.0
-                * match self.relief {
-                    Relief::Noise => noise,
-                    Relief::Slopes => a * i as f32 / columns as f32 + b * j as f32 / rows as f32,
-                    Relief::Spikes if noise > 0.93 => 1.0,
-                    Relief::Spikes if noise < -0.97 => -1.0,
-                    Relief::Spikes => noise / 64.0,
-                    Relief::Terraces => (noise * 2.0).round() / 2.0,
-                    Relief::Constant => -0.375,
+                * match self.landscape {
+                    Landscape::Noise => noise,
+                    Landscape::Slopes => a * i as f32 / columns as f32 + b * j as f32 / rows as f32,
+                    Landscape::Spikes if noise > 0.93 => 1.0,
+                    Landscape::Spikes if noise < -0.97 => -1.0,
+                    Landscape::Spikes => noise / 64.0,
+                    Landscape::Terraces => (noise * 2.0).round() / 2.0,
+                    Landscape::Constant => -0.375,
                 }
         })
     }
@@ -127,21 +127,21 @@ impl Recipe {
     pub fn scene(&self) -> Scene {
         let heights = self.heights();
         let (low, high) = heights.range();
-        let relief = f64::from(high - low);
+        let range = f64::from(high - low);
         let mut scene = over(heights, self.raster.0, self.raster.1);
         let cell = DVec2::new(self.cell.0, self.cell.1);
         let mean = (cell.x * cell.y).sqrt();
         let land = terrain(&mut scene);
         land.cell = cell;
         land.offset = self.offset;
-        land.scale = if relief > 0.0 { self.steepness * mean / relief } else { mean };
+        land.scale = if range > 0.0 { self.steepness * mean / range } else { mean };
         land.outside = self.outside;
         land.base_depth = self.base_depth.map(|depth| depth * mean);
         scene.seed = self.seed;
         scene.kernel = self.kernel;
         scene.stepper.mode = self.mode;
         scene.stepper.fineness = self.fineness;
-        scene.stepper.halvings = self.halvings;
+        scene.stepper.halvings = self.bisection;
         scene.light.ambient = self.ambient;
         scene.color.ramp.clone_from(&self.ramp);
         let angles = |(heading, pitch, roll): (f64, f64, f64)| Angles {
@@ -187,16 +187,16 @@ impl Recipe {
         };
         let at =
             |x: f64, z: f64| (snap(x * extent.x, self.cell.0), snap(z * extent.y, self.cell.1));
-        let relief = high - low;
+        let range = high - low;
         match self.eye {
             Eye::Above { x, z, up } => {
                 let (x, z) = at(x, z);
-                DVec3::new(x, high + up * up * (relief + extent.min_element()), z)
+                DVec3::new(x, high + up * up * (range + extent.min_element()), z)
             }
             Eye::Inside { x, z, up } => {
                 let (x, z) = at(x * 0.98 + 0.01, z * 0.98 + 0.01);
                 // In a hole, and on the far edge, whose nodes are of no patch, eyes may be lower.
-                let ground = ground_under(scene, x, z).unwrap_or(low - 0.3 * relief);
+                let ground = ground_under(scene, x, z).unwrap_or(low - 0.3 * range);
                 // Patches may meet in a step.
                 DVec3::new(x, ground + up * (high - ground) + 0.01 * unit, z)
             }
@@ -206,8 +206,8 @@ impl Recipe {
                     |share: f64, out: f64| if share < 0.5 { share - out } else { share + out };
                 let (x, z) = at(sign(x, out_x), sign(z, out_z));
                 let y = match self.outside {
-                    Outside::Sky => low + (3.0 * up - 1.5) * (relief + unit),
-                    Outside::Clamp | Outside::Wrap => high + up * (relief + unit),
+                    Outside::Sky => low + (3.0 * up - 1.5) * (range + unit),
+                    Outside::Clamp | Outside::Wrap => high + up * (range + unit),
                 };
                 DVec3::new(x, y, z)
             }
@@ -254,7 +254,7 @@ pub fn kernels() -> BoxedStrategy<Kernel> {
         1 => Just(Deformation::None),
         1 => Just(Deformation::Stretch),
         2 => select(vec![0, 1, 2, 3, 4, 5, 6, 40])
-            .prop_map(|weight_shift| Deformation::Blend { weight_shift }),
+            .prop_map(|weight_shift| Deformation::TowardHat { weight_shift }),
     ];
     (select(SHAPES.to_vec()), deformation, select(vec![16, 256, 4096]))
         .prop_map(|(shape, deformation, table): (KernelShape, _, _)| Kernel {
@@ -305,13 +305,13 @@ fn extents() -> BoxedStrategy<Extent> {
 
 /// Random scenes.
 pub fn recipes() -> BoxedStrategy<Recipe> {
-    let relief = select(vec![
-        Relief::Noise,
-        Relief::Noise,
-        Relief::Slopes,
-        Relief::Spikes,
-        Relief::Terraces,
-        Relief::Constant,
+    let landscape = select(vec![
+        Landscape::Noise,
+        Landscape::Noise,
+        Landscape::Slopes,
+        Landscape::Spikes,
+        Landscape::Terraces,
+        Landscape::Constant,
     ]);
     let side = || prop_oneof![2 => 2..=40_usize, 1 => select(vec![2, 3, 7, 17, 31, 33, 65, 130])];
     let cell = prop_oneof![
@@ -322,7 +322,8 @@ pub fn recipes() -> BoxedStrategy<Recipe> {
     ];
     let steepness = prop_oneof![0.05..1.0, 1.0..12.0, 12.0..60.0_f64];
     let outside = select(vec![Outside::Sky, Outside::Sky, Outside::Clamp, Outside::Wrap]);
-    let halvings = prop_oneof![Just(Halvings::Footprint), (0..=20_u32).prop_map(Halvings::Fixed)];
+    let bisection =
+        prop_oneof![Just(Bisection::Footprint), (0..=20_u32).prop_map(Bisection::Fixed)];
     let voids = prop_oneof![
         6 => Just(Voids::None),
         2 => (0.002..0.3_f64).prop_map(Voids::Scattered),
@@ -332,7 +333,7 @@ pub fn recipes() -> BoxedStrategy<Recipe> {
     ];
     let land = (
         (side(), side()),
-        (relief, voids),
+        (landscape, voids),
         any::<u64>(),
         cell,
         steepness,
@@ -340,7 +341,7 @@ pub fn recipes() -> BoxedStrategy<Recipe> {
         outside,
         prop_oneof![Just(None), (0.01..5.0_f64).prop_map(Some)],
     );
-    let walk = (kernels(), 0..=4_u32, halvings, eyes(), prop::bool::weighted(0.2), turns());
+    let walk = (kernels(), 0..=4_u32, bisection, eyes(), prop::bool::weighted(0.2), turns());
     let small = || -0.5..0.5_f64;
     let angle = || prop_oneof![3 => Just(0.0), 1 => -170.0..170.0_f64];
     let look = (
@@ -355,7 +356,7 @@ pub fn recipes() -> BoxedStrategy<Recipe> {
     (land, walk, look)
         .prop_map(|(land, walk, look)| Recipe {
             nodes: land.0,
-            relief: land.1.0,
+            landscape: land.1.0,
             voids: land.1.1,
             seed: land.2,
             cell: land.3,
@@ -366,7 +367,7 @@ pub fn recipes() -> BoxedStrategy<Recipe> {
             kernel: walk.0,
             mode: StepperMode::Skipping,
             fineness: walk.1,
-            halvings: walk.2,
+            bisection: walk.2,
             eye: walk.3,
             snapped: walk.4,
             turn: walk.5,

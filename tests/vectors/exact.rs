@@ -132,7 +132,8 @@ impl Surface<'_> {
 
     fn axis(&self, place: i128) -> Result<Axis, String> {
         let one = i128::from(self.file.register("weight_one"));
-        let (form, shift) = (self.file.register("form"), self.file.register("blend_shift") as u32);
+        let (form, shift) =
+            (self.file.register("form"), self.file.register("deformation_shift") as u32);
         let (half, mask) = (1_i128 << (self.point - 1), (1_i128 << self.point) - 1);
         let entry = |argument: i128| {
             nearest(argument, self.point - self.file.register("kernel_log2") as u32)

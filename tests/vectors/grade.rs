@@ -60,9 +60,9 @@ impl WithSetup for Grade<'_> {
 }
 
 /// Hits by their code.
-const HITS: [Hit; 4] = [Hit::Sky, Hit::Surface, Hit::Side, Hit::Far];
+const HITS: [Hit; 4] = [Hit::Sky, Hit::Surface, Hit::Side, Hit::OutOfRange];
 /// Entries by their code.
-const ENTRIES: [Entry; 3] = [Entry::Met, Entry::Sky, Entry::Far];
+const ENTRIES: [Entry; 3] = [Entry::Met, Entry::Sky, Entry::OutOfRange];
 
 impl Grade<'_> {
     /// Files that the page lists for a machine, in the order of their names.
@@ -189,7 +189,7 @@ impl Grade<'_> {
             &self.files["checker"],
             &[
                 ("sky_color", Some(packed(unit.pixel.sky))),
-                ("far_color", Some(packed(unit.pixel.out_of_range))),
+                ("out_of_range_color", Some(packed(unit.pixel.out_of_range))),
                 ("mean_red", mean[0]),
                 ("mean_green", mean[1]),
                 ("mean_blue", mean[2]),
@@ -241,7 +241,7 @@ impl Grade<'_> {
             &self.files["pixel"],
             &[
                 ("sky_color", Some(packed(shader.pixel.sky))),
-                ("far_color", Some(packed(shader.pixel.out_of_range))),
+                ("out_of_range_color", Some(packed(shader.pixel.out_of_range))),
                 ("side_color", Some(packed(shader.pixel.side))),
             ],
         )

@@ -124,7 +124,10 @@ fn a_height_file_is_looked_over() {
         return;
     }
     succeeds(&seen);
-    assert!(String::from_utf8_lossy(&seen.stderr).contains("no data"), "what was chosen is said");
+    assert!(
+        String::from_utf8_lossy(&seen.stderr).contains("no data"),
+        "what was chosen is reported"
+    );
     std::fs::write(path("else/copied.toml"), &seen.stdout).expect("a file");
     let window = png::read(&path("window.png")).expect("a picture");
     // The size of the window fits the whole map in, as that of a picture does.

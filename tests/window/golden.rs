@@ -29,8 +29,8 @@ fn a_plane_with_its_pixel() {
 }
 
 #[test]
-fn two_pictures_beside_the_divider() {
-    is_golden("divider.png", "plane", (560, 320), "2 shift+5 move=300,250");
+fn two_pictures_beside_a_split() {
+    is_golden("split.png", "plane", (560, 320), "2 shift+5 move=300,250");
 }
 
 #[test]

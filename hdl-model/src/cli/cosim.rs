@@ -7,14 +7,14 @@ use clap::Args;
 use serde::Serialize;
 use terraline::cli::scene_args::SceneArgs;
 use terraline::cli::{Stop, report};
-use terraline::clock::Sink;
+use terraline::clock::Taker;
 use terraline::engine::WithSetup;
-use terraline::plan::{Ground, Plan};
+use terraline::plan::{Plan, SurfacePlan};
 use terraline::setup::Setup;
 use terraline::word::Complete;
 
 use crate::cosim::{self, Outcome, Window};
-use crate::machine::Machine;
+use crate::rtl::Rtl;
 use crate::waves;
 
 /// Draw a scene with the RTL and compare every output of every unit, and every cycle, with the
@@ -26,7 +26,7 @@ pub struct Cosim {
     #[command(flatten)]
     scene: SceneArgs,
 
-    /// The sink behind the frame is busy in N of 256 cycles, chosen by the scene's seed.
+    /// The taker behind the frame is busy in N of 256 cycles, chosen by the scene's seed.
     #[arg(long, value_name = "N", default_value_t = 0)]
     busy: u8,
 
@@ -75,7 +75,7 @@ struct Report {
 }
 
 struct Compare<'a> {
-    sink: Sink,
+    taker: Taker,
     trace: Option<(&'a str, Window)>,
 }
 
@@ -83,9 +83,9 @@ impl WithSetup for Compare<'_> {
     type Output = Result<(Outcome, Option<String>), String>;
 
     fn run<W: Complete>(self, setup: &Setup<W>) -> Self::Output {
-        let rtl = Machine::new(setup)?;
+        let rtl = Rtl::new(setup)?;
         let waves = self.trace.map(|(path, _)| waves::gtkw(Path::new(path), setup, &rtl));
-        let outcome = cosim::compare_with(rtl, setup, self.sink, self.trace)?;
+        let outcome = cosim::compare_with(rtl, setup, self.taker, self.trace)?;
         Ok((outcome, waves))
     }
 }
@@ -95,7 +95,7 @@ impl Cosim {
         let planned = self.scene.load()?;
         let (scene, plan) = (&planned.scene, &planned.plan);
         let refuse = |reason: String| Stop::BadInput(format!("{}: {reason}", planned.named));
-        if plan.fitted.idle && matches!(plan.ground, Ground::Plane(_)) {
+        if plan.fitted.idle && matches!(plan.surface, SurfacePlan::Plane(_)) {
             return Err(refuse(
                 "--full: the RTL of a plane has no idle units; leave it out".into(),
             ));
@@ -103,9 +103,9 @@ impl Cosim {
         let window = self.window(plan).map_err(Stop::BadInput)?;
         let path = self.trace.as_deref().map(trace_path).transpose()?;
         let compare = Compare {
-            sink: match self.busy {
-                0 => Sink::Ready,
-                of_256 => Sink::Busy { seed: scene.seed, of_256 },
+            taker: match self.busy {
+                0 => Taker::Ready,
+                of_256 => Taker::Busy { seed: scene.seed, of_256 },
             },
             trace: path.map(|path| (path, window)),
         };

@@ -10,7 +10,7 @@ pub use yosys::{Cells, Target};
 pub struct Design {
     /// What the reports call it.
     pub name: &'static str,
-    /// Module.
+    /// Top module, a file of `rtl/`.
     pub top: &'static str,
     /// Parameters besides `WIDE`.
     pub parameters: &'static [(&'static str, u32)],

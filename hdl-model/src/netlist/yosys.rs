@@ -17,10 +17,10 @@ pub enum Target {
 }
 
 impl Target {
-    /// Both.
+    /// Both, the smaller family first.
     pub const ALL: [Self; 2] = [Self::Ice40, Self::Ecp5];
 
-    /// Name in reports.
+    /// Name of the family, as its maker spells it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ice40 => "iCE40",
@@ -119,7 +119,7 @@ impl Scratch {
     /// The text of a file in it.
     ///
     /// # Errors
-    /// If it is not there.
+    /// If it does not exist.
     pub fn read(&self, name: &str) -> Result<String, String> {
         std::fs::read_to_string(self.file(name)).map_err(|error| format!("{name}: {error}"))
     }
@@ -127,7 +127,7 @@ impl Scratch {
     /// A file in it that a tool wrote as JSON.
     ///
     /// # Errors
-    /// If it is not there or is no JSON.
+    /// If it does not exist or is no JSON.
     pub fn json(&self, name: &str) -> Result<Value, String> {
         serde_json::from_str(&self.read(name)?).map_err(|error| format!("{name}: {error}"))
     }

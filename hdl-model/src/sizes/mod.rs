@@ -22,9 +22,9 @@ pub const FRAMES: &str = "frames";
 /// A design on a device.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Design.
+    /// Name of the design, as `netlist::DESIGNS` has it.
     pub design: String,
-    /// Device family.
+    /// Device family, by its name in reports.
     pub target: String,
     /// Parameters, as `NAME=value`.
     pub parameters: String,
@@ -32,9 +32,9 @@ pub struct Row {
     pub tools: String,
     /// Look-up tables of four inputs, those of carries included where they take some.
     pub luts: u64,
-    /// Flip-flops.
+    /// Flip-flops after synthesis.
     pub flip_flops: u64,
-    /// Blocks of RAM.
+    /// Blocks of RAM after synthesis.
     pub block_ram: u64,
     /// Logic cells after placement, the shell's included; `None` where it was not placed.
     pub cells: Option<u64>,
@@ -47,13 +47,13 @@ pub struct Row {
 /// Cycles of a frame.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FrameRow {
-    /// Scene.
+    /// Built-in scene that was drawn.
     pub scene: String,
     /// Word size that its plan chooses.
     pub words: String,
     /// Columns of the raster.
     pub columns: u32,
-    /// Lines.
+    /// Lines of its frame.
     pub lines: u32,
     /// Cycles, all lines counted.
     pub cycles: u64,
@@ -64,16 +64,16 @@ pub struct FrameRow {
 pub struct Sizes {
     /// Designs on devices, in the order of [`jobs`].
     pub rows: Vec<Row>,
-    /// Frames.
+    /// Modelled frame rates, a row for each built-in scene.
     pub frames: Vec<FrameRow>,
 }
 
 /// A design to be measured on a device.
 #[derive(Clone, Copy, Debug)]
 pub struct Job {
-    /// Design.
+    /// Design to be synthesised.
     pub design: &'static Design,
-    /// Device.
+    /// Device family to map it to.
     pub target: Target,
     /// Parameters that differ there.
     pub parameters: &'static [(&'static str, u32)],
@@ -145,7 +145,7 @@ pub fn run(only: Option<&str>, limit: Duration) -> Result<(), String> {
 /// Reads `sizes.json`.
 ///
 /// # Errors
-/// If it is not there or is something else.
+/// If it does not exist or is something else.
 pub fn load() -> Result<Sizes, String> {
     let path = file("sizes.json");
     let text = std::fs::read_to_string(&path);

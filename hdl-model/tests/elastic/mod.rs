@@ -1,5 +1,5 @@
 //! Items through one elastic unit: what comes out, and in which cycle (equation 28), between a source
-//! and a sink that take their time.
+//! and a taker that take their time.
 
 use terraline_hdl::Model;
 
@@ -13,20 +13,20 @@ pub struct Timing {
     pub depth: usize,
 }
 
-/// How source and sink behave.
+/// How source and taker behave.
 #[derive(Clone, Debug)]
 pub struct Pace {
     /// By item, the first cycle in which the source has it.
     arrivals: Vec<u64>,
     seed: u64,
-    /// Cycles of 256 in which the sink does not take anything.
+    /// Cycles of 256 in which the taker does not take anything.
     stalls: i64,
-    /// As a power of two, cycles that the sink's mood lasts.
+    /// As a power of two, cycles that the taker's mood lasts.
     mood: u32,
 }
 
 impl Pace {
-    /// A random pace for so many items: full speed, gaps and stalls of all kinds.
+    /// A random pace for this many items: full speed, gaps and stalls of all kinds.
     pub fn random(random: &mut Random, items: usize) -> Self {
         let [gaps, stalls] = [(); 2].map(|()| [0, 0, 32, 128, 224][random.within(0, 4) as usize]);
         let mut cycle = random.within(1, 20) as u64;
@@ -42,7 +42,7 @@ impl Pace {
         Self { arrivals, seed: random.bits(), stalls, mood: random.within(0, 5) as u32 }
     }
 
-    /// Whether the sink takes an item in this cycle.
+    /// Whether the taker takes an item in this cycle.
     fn ready(&self, cycle: u64) -> bool {
         !Random(self.seed ^ cycle >> self.mood).is(self.stalls)
     }

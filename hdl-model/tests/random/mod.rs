@@ -25,8 +25,8 @@ impl Random {
         self.within(0, 255) < chance
     }
 
-    /// A signed word that is hostile more often than not: ends, small values, powers of two and
-    /// their neighbours, or random bits below a random leading one.
+    /// A signed word that is a corner case more often than not: ends, small values, powers of two
+    /// and their neighbours, or random bits below a random leading one.
     pub fn word(&mut self, width: u32) -> i64 {
         let (low, high) = (i64::MIN >> (64 - width), i64::MAX >> (64 - width));
         let magnitude = 1_i64 << self.within(0, i64::from(width) - 2);

@@ -29,7 +29,7 @@ struct Hits {
     sky: usize,
     surface: usize,
     side: usize,
-    far: usize,
+    out_of_range: usize,
 }
 
 #[derive(Serialize)]
@@ -131,7 +131,7 @@ impl Render {
                 sky: count(Hit::Sky),
                 surface: count(Hit::Surface),
                 side: count(Hit::Side),
-                far: count(Hit::Far),
+                out_of_range: count(Hit::OutOfRange),
             },
             cycles: cost.cycles,
             additions: cost.additions,
@@ -212,7 +212,7 @@ impl Render {
                 (Hit::Surface, hits.surface),
                 (Hit::Side, hits.side),
                 (Hit::Sky, hits.sky),
-                (Hit::Far, hits.far)
+                (Hit::OutOfRange, hits.out_of_range)
             ]
             .iter()
             .filter(|(_, count)| *count > 0)
@@ -267,7 +267,7 @@ fn error_lines(errors: &ErrorReport) -> Vec<String> {
     };
     let beyond = match errors.beyond {
         0 => String::new(),
-        count => format!(", {count} far"),
+        count => format!(", {count} out of range"),
     };
     vec![
         format!(

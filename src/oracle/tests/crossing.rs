@@ -66,7 +66,7 @@ impl<'a> March<'a> {
                 }
             }
             if !ends && n as f64 > REACH * FINENESS {
-                return Err(Hit::Far);
+                return Err(Hit::OutOfRange);
             }
         }
         unreachable!()
@@ -83,7 +83,7 @@ impl<'a> March<'a> {
             return;
         }
         let first = self.first();
-        if matches!(sighting.hit, Hit::Sky | Hit::Far) {
+        if matches!(sighting.hit, Hit::Sky | Hit::OutOfRange) {
             assert_eq!(first, Err(sighting.hit), "{}", what());
             return;
         }
@@ -136,14 +136,14 @@ fn check_all(outside: Outside, holes: f64, rays: usize) -> [usize; 4] {
 
 #[test]
 fn no_crossing_is_jumped_on_a_map_that_ends() {
-    let [sky, surface, side, far] = check_all(Outside::Sky, 0.0, 40);
-    assert!(sky > 100 && surface > 500 && side > 100 && far == 0);
+    let [sky, surface, side, out_of_range] = check_all(Outside::Sky, 0.0, 40);
+    assert!(sky > 100 && surface > 500 && side > 100 && out_of_range == 0);
 }
 
 #[test]
 fn no_crossing_is_jumped_on_a_map_that_goes_on() {
-    let [sky, surface, side, far] = check_all(Outside::Clamp, 0.0, 25);
-    assert!(sky > 10 && surface > 500 && side == 0 && far > 10);
+    let [sky, surface, side, out_of_range] = check_all(Outside::Clamp, 0.0, 25);
+    assert!(sky > 10 && surface > 500 && side == 0 && out_of_range > 10);
 }
 
 #[test]
@@ -163,7 +163,7 @@ fn no_side_of_a_hole_is_jumped() {
     }
 }
 
-/// A wide plain with a few high nodes: most of a walk passes over blocks of several sizes.
+/// A wide plain with a few high nodes: most of a traversal passes over blocks of several sizes.
 #[test]
 fn no_crossing_is_jumped_by_passing_over_blocks() {
     let mut dice = Dice(31);
@@ -187,8 +187,8 @@ fn no_crossing_is_jumped_by_passing_over_blocks() {
             }
         }
     }
-    let [sky, surface, _, far] = outcomes;
-    assert!(sky > 30 && surface > 200 && far > 30, "{outcomes:?}");
+    let [sky, surface, _, out_of_range] = outcomes;
+    assert!(sky > 30 && surface > 200 && out_of_range > 30, "{outcomes:?}");
 }
 
 #[test]

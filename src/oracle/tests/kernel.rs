@@ -47,18 +47,19 @@ fn smooth_shapes_are_level_at_nodes() {
 }
 
 #[test]
-fn blend_runs_from_the_shape_to_the_hat() {
+fn deformation_2_runs_from_the_shape_to_the_hat() {
     for shape in SHAPES {
         let plain = Finite::new(kernel(shape, Deformation::None));
         let hat = Finite::new(kernel(KernelShape::Hat, Deformation::None));
-        let blend = |weight_shift| Finite::new(kernel(shape, Deformation::Blend { weight_shift }));
+        let toward_hat =
+            |weight_shift| Finite::new(kernel(shape, Deformation::TowardHat { weight_shift }));
         for n in 0..100 {
             let t = f64::from(n) / 100.0;
-            assert!((blend(0).value(t) - plain.value(t)).abs() < 1e-15);
-            assert!((blend(64).value(t) - hat.value(t)).abs() < 1e-16);
-            assert_eq!(blend(u32::MAX).value(t), hat.value(t));
+            assert!((toward_hat(0).value(t) - plain.value(t)).abs() < 1e-15);
+            assert!((toward_hat(64).value(t) - hat.value(t)).abs() < 1e-16);
+            assert_eq!(toward_hat(u32::MAX).value(t), hat.value(t));
             let quarter = 0.75 * hat.value(t) + 0.25 * plain.value(t);
-            assert!((blend(2).value(t) - quarter).abs() < 1e-15);
+            assert!((toward_hat(2).value(t) - quarter).abs() < 1e-15);
         }
     }
 }

@@ -26,9 +26,9 @@ pub(super) fn kernels() -> Vec<Kernel> {
     let deformations = [
         Deformation::None,
         Deformation::Stretch,
-        Deformation::Blend { weight_shift: 0 },
-        Deformation::Blend { weight_shift: 2 },
-        Deformation::Blend { weight_shift: 64 },
+        Deformation::TowardHat { weight_shift: 0 },
+        Deformation::TowardHat { weight_shift: 2 },
+        Deformation::TowardHat { weight_shift: 64 },
     ];
     SHAPES
         .iter()
@@ -154,7 +154,7 @@ impl Naive<'_> {
                 let i = x.floor() as i64;
                 [i, i + 1].map(|n| (n, self.shape(x - n as f64))).to_vec()
             }
-            Deformation::Blend { weight_shift } => {
+            Deformation::TowardHat { weight_shift } => {
                 let i = x.floor() as i64;
                 let a = 2f64.powf(-f64::from(weight_shift));
                 [i, i + 1]

@@ -130,7 +130,7 @@ fn maps_without_end_have_a_reach() {
             let seen = |x| sight(&map, kernel, eye, DVec3::new(x, 1.0, 5.0));
             assert_eq!(seen(104.0).hit, Hit::Surface);
             assert!((seen(-80.0).point.x + 80.0).abs() < 1e-11);
-            assert_eq!((seen(106.0).hit, seen(106.0).color), (Hit::Far, [200, 210, 220]));
+            assert_eq!((seen(106.0).hit, seen(106.0).color), (Hit::OutOfRange, [200, 210, 220]));
             let over = sight(&map, kernel, eye, DVec3::new(50.0, 3.1, 5.0));
             assert_eq!(over.hit, Hit::Sky);
         }
@@ -167,7 +167,7 @@ fn a_grazing_ray_is_called_tangent() {
 
 #[test]
 fn frames_hold_their_pixels() {
-    let kernel = kernel(KernelShape::Cosine, Deformation::Blend { weight_shift: 2 });
+    let kernel = kernel(KernelShape::Cosine, Deformation::TowardHat { weight_shift: 2 });
     let terrain = terrain(rough_map(20, 20, 4), Outside::Sky);
     let (eye, forward) = (DVec3::new(-3.0, 2.0, 7.0), DVec3::new(1.0, -0.5, 0.0));
     let oracle = oracle(&scene(Surface::Terrain(terrain), kernel, eye, forward));

@@ -23,7 +23,7 @@ const FLOODED: f64 = 0.05;
 /// Metres between two colours above which the blue of a sea would reach far inland.
 const SHARPEST: f64 = 50.0;
 
-/// The ramp for a map, and what has to be said of it.
+/// The ramp for a map, and a remark on it, if there is one.
 pub(super) fn choose(map: &HeightMap, height_unit_m: f64) -> (Vec<[u8; 3]>, Option<String>) {
     let (low, high) = map.range();
     let step = (f64::from(high) - f64::from(low)) / (MOST - 1) as f64;

@@ -16,13 +16,13 @@ use crate::scene::terrain::{Outside, Terrain};
 /// Metres of a cell where nothing is known.
 const ASSUMED_CELL_M: f64 = 30.0;
 
-/// Relief below this share of the map's longer side looks flat.
+/// A height range below this share of the map's longer side looks flat.
 const FLAT: f64 = 0.08;
 
-/// What the relief is raised to, as a share of the longer side.
+/// What the height range is raised to, as a share of the longer side.
 const RAISED: f64 = 0.1;
 
-/// Relief above this share of the longer side is lowered: no ground is so steep over a whole map.
+/// A height range above this share of the longer side is lowered: no ground is so steep over a whole map.
 const NEEDLES: f64 = 2.0;
 
 /// The same where the size of a cell is a guess.
@@ -110,8 +110,8 @@ impl View {
         let (across, down) = cells(map);
         let extent = DVec2::new(across * cell.x, down * cell.y);
         let longer = extent.max_element();
-        let relief = (f64::from(high) - f64::from(low)) * height_unit_m / unit_m;
-        let exaggeration = exaggeration(relief / longer, known.is_some(), &mut reasons);
+        let range = (f64::from(high) - f64::from(low)) * height_unit_m / unit_m;
+        let exaggeration = exaggeration(range / longer, known.is_some(), &mut reasons);
         let scale = neat(height_unit_m * exaggeration / unit_m).max(1e-9);
         let top = (f64::from(high) - f64::from(low)) * scale;
         let base_depth = neat((top / 4.0).max(longer / 64.0));
@@ -187,12 +187,12 @@ fn cells(map: &HeightMap) -> (f64, f64) {
     ((map.columns() - 1) as f64, (map.rows() - 1) as f64)
 }
 
-/// The vertical exaggeration for a relief given as a share of the map's longer side.
+/// The vertical exaggeration for a height range given as a share of the map's longer side.
 fn exaggeration(share: f64, known: bool, reasons: &mut Vec<String>) -> f64 {
     if share > if known { NEEDLES } else { GUESSED_NEEDLES } {
         let lowered = neat(LOWERED / share);
         reasons.push(format!(
-            "the relief is {share:.1} times the map's longer side, as if units were not what they \
+            "the height range is {share:.1} times the map's longer side, as if units were not what they \
              seem: heights are drawn {lowered} times as high (surface.height.scale)"
         ));
         return lowered;
@@ -206,7 +206,7 @@ fn exaggeration(share: f64, known: bool, reasons: &mut Vec<String>) -> f64 {
     let chosen = chosen.unwrap_or(1.0);
     if chosen != 1.0 {
         reasons.push(format!(
-            "the relief is {:.2} % of the map's longer side: heights are drawn {chosen} times life \
+            "the height range is {:.2} % of the map's longer side: heights are drawn {chosen} times life \
              size (surface.height.scale)",
             100.0 * share
         ));
@@ -285,8 +285,8 @@ fn overlooking(points: &[DVec3], top: f64, heading: f64, size: (u32, u32)) -> DV
 mod tests {
     use super::*;
 
-    fn view(columns: usize, rows: usize, relief: f32, size: (u32, u32)) -> View {
-        let samples = (0..columns * rows).map(|k| if k == 3 { relief } else { 0.0 }).collect();
+    fn view(columns: usize, rows: usize, range: f32, size: (u32, u32)) -> View {
+        let samples = (0..columns * rows).map(|k| if k == 3 { range } else { 0.0 }).collect();
         let map = HeightMap::new(columns, rows, samples);
         View::new(&map, &Georeference::unknown(), size).unwrap()
     }
@@ -294,10 +294,10 @@ mod tests {
     #[test]
     fn all_ground_is_on_the_screen_and_the_eye_above() {
         for (columns, rows) in [(2, 2), (344, 344), (16384, 2), (2, 16384), (40, 1000)] {
-            for relief in [0.0, 1.0, 3000.0] {
+            for range in [0.0, 1.0, 3000.0] {
                 for size in [(1280, 800), (640, 640), (200, 900), (2000, 100)] {
-                    let view = view(columns, rows, relief, size);
-                    let top = f64::from(relief) * view.scale;
+                    let view = view(columns, rows, range, size);
+                    let top = f64::from(range) * view.scale;
                     assert!(view.position.y > top, "{view:?}");
                     let psi = view.heading.to_radians();
                     let theta = PITCH.to_radians();

@@ -17,9 +17,9 @@ pub(super) const DEFLATE_RATIO: u64 = 1032;
 pub struct MapError {
     /// Path of the map, or `builtin:NAME`.
     pub file: String,
-    /// Why.
+    /// What is wrong with the file.
     pub reason: String,
-    /// What to do.
+    /// What the user can do about it.
     pub remedy: String,
 }
 

@@ -49,7 +49,7 @@ pub(super) fn decode(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
         .finish(name, nodata, notes)
 }
 
-/// The first image of full resolution that is no mask; the others are said.
+/// The first image of full resolution that is no mask; the others are reported.
 fn choose<'a>(
     tiff: &Tiff<'_>,
     directories: &'a [Directory],

@@ -34,7 +34,7 @@ pub(super) fn decode(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
     let Some(side) = side(bytes.len()) else {
         return Err(MapError::new(
             name,
-            format!("{} bytes are no square of 16-bit heights", bytes.len()),
+            format!("{} bytes are not a square of 16-bit heights", bytes.len()),
             "download the tile again: 1201 x 1201 heights are 2884802 bytes, 3601 x 3601 are \
              25934402",
         ));

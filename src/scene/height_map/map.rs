@@ -47,7 +47,7 @@ impl HeightMap {
         &self.samples
     }
 
-    /// Nodes without data.
+    /// Number of nodes without data.
     pub fn voids(&self) -> usize {
         self.samples.iter().filter(|sample| sample.is_nan()).count()
     }

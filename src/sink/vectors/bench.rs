@@ -93,7 +93,7 @@ impl<'a, W: Complete> Benches<'a, W> {
         self.benches.iter_mut().try_for_each(|bench| bench.rows(line, false))
     }
 
-    /// Writes so many corner cases of every unit.
+    /// Writes this many corner cases of every unit.
     pub fn corner_cases(
         &mut self,
         cases: &mut CornerCases<W>,
@@ -106,7 +106,7 @@ impl<'a, W: Complete> Benches<'a, W> {
         Ok(())
     }
 
-    /// Closes the files.
+    /// Ends all files with their checksums.
     pub fn finish(self) -> Result<Vec<Written>, SinkError> {
         self.benches.into_iter().map(|bench| bench.sheet.finish()).collect()
     }

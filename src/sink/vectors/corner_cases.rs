@@ -10,7 +10,7 @@ use crate::unit::line::Entry;
 use crate::unit::projector::{Linear, Projector};
 use crate::unit::surface_unit::SurfaceUnit;
 use crate::unit::{Description, Line};
-use crate::word::format::mix;
+use crate::word::format::hash;
 use crate::word::{Complete, Fixed, Load, Readout, Register, Site, Word};
 
 /// Lines and columns that a set of coefficients is scanned over.
@@ -37,7 +37,7 @@ impl<W: Complete> CornerCases<W> {
 
     fn bits(&mut self) -> u64 {
         self.drawn += 1;
-        mix(self.seed, self.drawn)
+        hash(self.seed, self.drawn)
     }
 
     fn below(&mut self, end: u64) -> u64 {
@@ -96,7 +96,7 @@ impl<W: Complete> CornerCases<W> {
         W::Height::load_raw(bits, format).unwrap_or(W::Height::zero(format))
     }
 
-    /// Wires of so many pixels.
+    /// Wires of this many pixels.
     fn idle(&self, pixels: u32) -> Line<W> {
         Line::new(&self.world, 0..pixels)
     }
@@ -166,7 +166,7 @@ impl<W: Complete> CornerCases<W> {
         W::View::load_raw(bits, self.world.view(Register::ViewX))
     }
 
-    /// A coordinate on or near a map of so many nodes: within a cell, on its rim, on its middle.
+    /// A coordinate on or near a map of this many nodes: within a cell, on its rim, on its middle.
     fn coordinate(&mut self, nodes: i32, register: Register) -> i64 {
         let point = self.fixed(register).point;
         let (one, half) = (1_i64 << point, (1_i64 << point) >> 1);
@@ -232,7 +232,7 @@ impl<W: Complete> CornerCases<W> {
             (line.view_x[at], line.view_y[at], line.view_z[at]) = self.ray();
             line.entry[at] = match self.below(16) {
                 0 if !units.stepper.from_eye => Entry::Sky,
-                1 if !units.stepper.from_eye => Entry::Far,
+                1 if !units.stepper.from_eye => Entry::OutOfRange,
                 _ => Entry::Met,
             };
             let [x, z] = axes.map(|(register, eye, nodes)| {
@@ -294,7 +294,7 @@ impl<W: Complete> CornerCases<W> {
         match self.below(16) {
             0 => Hit::Sky,
             1 => Hit::Side,
-            2 => Hit::Far,
+            2 => Hit::OutOfRange,
             _ => Hit::Surface,
         }
     }
@@ -355,7 +355,7 @@ impl<W: Complete> CornerCases<W> {
         for at in 0..line.len() {
             line.entry[at] = match self.below(8) {
                 0 => Entry::Sky,
-                1 => Entry::Far,
+                1 => Entry::OutOfRange,
                 _ => Entry::Met,
             };
             line.denominator[at] = self.view(Register::Denominator, true);

@@ -70,7 +70,7 @@ impl<'a, W: Complete> Scan<'a, W> {
         Ok(())
     }
 
-    /// Writes sets of corner cases and so many rows of them.
+    /// Writes sets of corner cases and this many rows of them.
     pub fn corner_cases(
         &mut self,
         unit: &Projector<W>,
@@ -94,7 +94,7 @@ impl<'a, W: Complete> Scan<'a, W> {
         Ok(())
     }
 
-    /// Closes both files.
+    /// Ends both files with their checksums.
     pub fn finish(self) -> Result<[Written; 2], SinkError> {
         Ok([self.rows.finish()?, self.sets.finish()?])
     }

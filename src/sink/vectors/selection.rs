@@ -2,7 +2,7 @@
 
 use crate::plan::Plan;
 use crate::study::error::Sample;
-use crate::word::format::mix;
+use crate::word::format::hash;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub enum Choice {
 /// Columns of a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Columns {
-    /// All of so many.
+    /// All of them, this many.
     All(u32),
     /// These, ascending.
     Some(Vec<u32>),
@@ -46,7 +46,7 @@ impl Columns {
 pub struct Selection {
     /// Lines, ascending, and columns on them.
     pub lines: Vec<(u32, Columns)>,
-    /// In words.
+    /// The choice in words, for headers and reports.
     pub said: String,
 }
 
@@ -77,7 +77,7 @@ impl Selection {
                 let mut chosen: Vec<(u32, Columns)> = Vec::new();
                 for n in 0..count {
                     let (from, to) = (n * all / count, (n + 1) * all / count);
-                    let pixel = from + mix(seed, n) % (to - from);
+                    let pixel = from + hash(seed, n) % (to - from);
                     let line = (pixel / u64::from(columns)) as u32;
                     let column = (pixel % u64::from(columns)) as u32;
                     match chosen.last_mut() {

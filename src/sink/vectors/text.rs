@@ -15,7 +15,7 @@ pub const VERSION: u32 = 1;
 /// How a word is written: as many hexadecimal digits as its bits need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Notation {
-    /// Two's complement.
+    /// Words are two's complement.
     pub signed: bool,
     /// Bits in all.
     pub width: u32,
@@ -24,7 +24,7 @@ pub struct Notation {
 }
 
 impl Notation {
-    /// A register.
+    /// The notation of a register's words.
     pub fn of(fixed: Fixed) -> Self {
         Self { signed: true, width: fixed.width, point: fixed.point }
     }
@@ -34,7 +34,7 @@ impl Notation {
         Self { signed: false, width, point: 0 }
     }
 
-    /// A whole number.
+    /// Whole numbers with a sign.
     pub const fn signed(width: u32) -> Self {
         Self { signed: true, width, point: 0 }
     }
@@ -88,24 +88,24 @@ impl Way {
 pub struct Heading {
     /// What it is to the unit.
     pub way: Way,
-    /// Name.
+    /// Name of the column.
     pub name: String,
     /// How its words are written.
     pub notation: Notation,
-    /// What it holds.
+    /// What its words hold, and when they are valid.
     pub meaning: String,
 }
 
 /// A coefficient register with its value.
 #[derive(Clone, Debug)]
 pub struct Register {
-    /// Name.
+    /// Name of the coefficient.
     pub name: &'static str,
     /// How it is written.
     pub notation: Notation,
-    /// What it holds.
+    /// Its bits, as loaded for the scene.
     pub value: i64,
-    /// What that is.
+    /// What the coefficient is for.
     pub meaning: &'static str,
 }
 
@@ -118,9 +118,9 @@ pub struct Header {
     pub holds: &'static str,
     /// Further lines, each a key and a value.
     pub lines: Vec<String>,
-    /// Coefficient registers.
+    /// Coefficient registers of the unit.
     pub registers: Vec<Register>,
-    /// Columns.
+    /// Columns of a row, in their order.
     pub columns: Vec<Heading>,
     /// Rows of the scene.
     pub rows: u64,
@@ -156,13 +156,13 @@ impl Header {
 pub struct Written {
     /// Name of the file.
     pub file: String,
-    /// What it holds.
+    /// What the file holds, in half a sentence.
     pub holds: &'static str,
-    /// Rows.
+    /// Rows written.
     pub rows: u64,
     /// Words of a row.
     pub columns: usize,
-    /// Size.
+    /// Size of the file.
     pub bytes: u64,
 }
 

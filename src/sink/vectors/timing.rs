@@ -64,7 +64,7 @@ impl<'a> Timing<'a> {
         Ok(())
     }
 
-    /// Closes the file.
+    /// Ends the file with its checksum.
     pub fn finish(self) -> Result<Written, SinkError> {
         self.sheet.finish()
     }

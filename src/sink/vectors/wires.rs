@@ -11,7 +11,7 @@ pub const PLACE: Notation = Notation::unsigned(16);
 const OUTCOME: Notation = Notation::unsigned(2);
 /// sRGB bytes.
 const COLOR: Notation = Notation::unsigned(24);
-/// Flags.
+/// Notation of a flag: one bit.
 pub const FLAG: Notation = Notation::unsigned(1);
 /// Counts and small whole numbers.
 pub const COUNT: Notation = Notation::unsigned(32);

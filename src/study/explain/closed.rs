@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::quantity::Quantity::{self, Wire as Of};
 use crate::oracle::Sighting;
-use crate::plan::{Ground, Plan};
+use crate::plan::{Plan, SurfacePlan};
 use crate::scene::Scene;
 use crate::setup::coefficients::Coefficients;
 use crate::unit::Wire;
@@ -21,7 +21,7 @@ pub(super) struct Closed<'a> {
 
 impl Closed<'_> {
     fn ramp(&self, top: f64) -> f64 {
-        let Ground::Terrain(walk) = &self.plan.ground else { return 0.0 };
+        let SurfacePlan::Terrain(walk) = &self.plan.surface else { return 0.0 };
         let height = walk.scale.to_register(self.sighting.point.y);
         let segments = (self.scene.color.ramp.len() - 1) as f64;
         if top == 0.0 { 0.0 } else { height / top * segments }
@@ -34,8 +34,8 @@ impl Closed<'_> {
     }
 
     pub fn value(&self, quantity: Quantity) -> Option<f64> {
-        match &self.plan.ground {
-            Ground::Terrain(walk) => {
+        match &self.plan.surface {
+            SurfacePlan::Terrain(walk) => {
                 let view = self.direction / walk.lengths;
                 let eye = walk.eye;
                 let scale = libm::scalbn(1.0, self.coefficients.view_exponent);
@@ -65,7 +65,7 @@ impl Closed<'_> {
                     _ => None,
                 }
             }
-            Ground::Plane(plane) => {
+            SurfacePlan::Plane(plane) => {
                 let along = |at: usize| plane.axes[at].dot(self.direction) / plane.checker;
                 let scale = libm::scalbn(1.0, self.coefficients.view_exponent);
                 let g = plane.normal.dot(self.direction);

@@ -12,8 +12,8 @@ pub fn text(scene: &str, world: &str, e: &Explanation) -> String {
     let mut out = vec![
         format!("{scene}, column {}, line {}, {world}", e.column, e.line),
         format!(
-            "fixed: {}, real: {}, oracle: {}; {} after {} trials, {} samples, {} halvings",
-            e.hit, e.real_hit, e.oracle_hit, sample, e.trials, e.samples, e.halvings
+            "fixed: {}, real: {}, oracle: {}; {} after {} skip tests, {} samples, {} bisection steps",
+            e.hit, e.real_hit, e.oracle_hit, sample, e.skip_tests, e.samples, e.bisection_steps
         ),
         format!(
             "colour {:?}, oracle {:?}. Numbers on the right: equations of docs/mathematics.md",

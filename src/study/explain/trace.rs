@@ -72,16 +72,16 @@ impl Readings<'_> {
     }
 }
 
-/// One pixel to be walked in some world.
+/// One pixel whose readings are wanted, in some world.
 #[derive(Clone, Copy)]
-pub(super) struct Walk {
+pub(super) struct PixelTrace {
     pub column: u32,
     pub line: u32,
     /// Take the ray's position at this sample instead of the world's own hit.
     pub index: Option<u32>,
 }
 
-impl WithSetup for Walk {
+impl WithSetup for PixelTrace {
     type Output = Trace;
 
     fn run<W: Complete>(self, setup: &Setup<W>) -> Trace {
@@ -109,7 +109,7 @@ impl WithSetup for Walk {
                 Entry::Sky => {
                     Some("the denominator is not positive: the ray does not meet the plane")
                 }
-                Entry::Far => Some("the quotient is out of range: the entry lies beyond it"),
+                Entry::OutOfRange => Some("the quotient is out of range: the entry lies beyond it"),
             };
         }
         let mut readings = Vec::new();
@@ -126,7 +126,7 @@ impl WithSetup for Walk {
     }
 }
 
-impl Walk {
+impl PixelTrace {
     /// What a unit has inside, between the wires.
     fn inside<W: Complete>(
         &self,
@@ -234,6 +234,6 @@ fn at_hole<W: Complete>(
         {
             Some("the ray leaves the map through a hole")
         }
-        Hit::Surface | Hit::Side | Hit::Sky | Hit::Far => None,
+        Hit::Surface | Hit::Side | Hit::Sky | Hit::OutOfRange => None,
     }
 }

@@ -25,14 +25,14 @@ pub(super) fn draw(
     canvas: &mut Canvas,
     session: &Session,
     snapshot: &Snapshot,
-    divider: Option<usize>,
+    split: Option<usize>,
     bottom: i32,
 ) {
     let sides = session.panes().len();
     for (index, image) in snapshot.images.iter().take(sides).enumerate() {
         let window = canvas.size().0 as i32;
         // The part of the window that the side has to itself.
-        let (from, to) = match (divider.map(|x| x as i32), index) {
+        let (from, to) = match (split.map(|x| x as i32), index) {
             (None, _) => (0, window),
             (Some(x), 0) => (0, x),
             (Some(x), _) => (x, window),

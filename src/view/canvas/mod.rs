@@ -1,4 +1,4 @@
-//! Everything that is seen, as one picture: the panes enlarged by whole numbers, the divider, the
+//! Everything that is seen, as one picture: the panes enlarged by whole numbers, the split, the
 //! scan, legends, status, help.
 
 mod help;
@@ -22,7 +22,7 @@ use super::snapshot::{BLANK, Image, LineState, Snapshot};
 /// Colour beside the raster, where the window is no multiple of it.
 const BESIDE: [u8; 3] = [0, 0, 0];
 
-/// Colour of marks: divider, scan line.
+/// Colour of marks: split, scan line.
 const MARK: Rgb888 = Rgb888::new(255, 214, 64);
 
 /// Colour of text.
@@ -52,7 +52,7 @@ impl Canvas {
         &self.pixels
     }
 
-    /// sRGB bytes.
+    /// The picture as sRGB bytes, line by line.
     #[must_use]
     pub fn bytes(&self) -> Vec<[u8; 3]> {
         self.pixels
@@ -67,31 +67,33 @@ impl Canvas {
         (self.width, self.height) = (layout.width, layout.height);
         self.pixels.clear();
         self.pixels.resize(self.width * self.height, packed(BESIDE));
-        let divider = session.divider().map(|place| layout.across(place));
-        self.raster(&layout, snapshot, divider);
-        if let Some(x) = divider {
-            self.divider(&layout, x);
+        let split = session.split().map(|place| layout.across(place));
+        self.raster(&layout, snapshot, split);
+        if let Some(x) = split {
+            self.split_line(&layout, x);
         }
         if let Some(line) = snapshot.scan {
             self.scan(&layout, snapshot, line);
         }
         if session.shows_panels() {
             let bottom = status::draw(self, session, snapshot, timed);
-            legend::draw(self, session, snapshot, divider, bottom);
+            legend::draw(self, session, snapshot, split, bottom);
         }
         if session.shows_help() {
             help::draw(self);
         }
     }
 
-    fn raster(&mut self, layout: &Layout, snapshot: &Snapshot, divider: Option<usize>) {
+    fn raster(&mut self, layout: &Layout, snapshot: &Snapshot, split: Option<usize>) {
         let [left, right] = [0, 1].map(|i| snapshot.images.get(i).or(snapshot.images.first()));
-        let split = divider.map_or(layout.width, |x| x.clamp(layout.left, layout.width));
+        let boundary = split.map_or(layout.width, |x| x.clamp(layout.left, layout.width));
         let end = (layout.left + layout.columns * layout.scale).min(layout.width);
         let mut row = vec![packed(BLANK); layout.columns];
         for line in 0..layout.lines {
             let top = layout.top + line * layout.scale;
-            for (image, from, to) in [(left, layout.left, split.min(end)), (right, split, end)] {
+            for (image, from, to) in
+                [(left, layout.left, boundary.min(end)), (right, boundary, end)]
+            {
                 let Some(image) = image.filter(|_| from < to) else { continue };
                 enlarge(image, line, layout, snapshot.by_lines, &mut row);
                 for y in (top..top + layout.scale).take_while(|&y| y < self.height) {
@@ -104,7 +106,7 @@ impl Canvas {
         }
     }
 
-    fn divider(&mut self, layout: &Layout, x: usize) {
+    fn split_line(&mut self, layout: &Layout, x: usize) {
         let (x, top) = (x as i32, layout.top as i32);
         let tall = (layout.lines * layout.scale) as u32;
         self.fill(x - 1, top, 3, tall, Rgb888::BLACK);

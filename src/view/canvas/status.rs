@@ -84,7 +84,7 @@ fn work(session: &Session, snapshot: &Snapshot, timed: bool) -> Vec<String> {
         items.push(match scene.kernel.deformation {
             Deformation::None => format!("{shape}, deformation 0"),
             Deformation::Stretch => format!("{shape}, deformation 1"),
-            Deformation::Blend { weight_shift } => {
+            Deformation::TowardHat { weight_shift } => {
                 format!("{shape}, deformation 2, weight 2^-{weight_shift}")
             }
         });

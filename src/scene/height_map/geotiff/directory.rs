@@ -45,7 +45,7 @@ pub(super) struct Tiff<'a> {
 
 /// An entry of a directory: type, number of values, and where they lie.
 #[derive(Clone, Copy, Debug)]
-struct Entry {
+struct TagEntry {
     kind: u16,
     count: u64,
     at: u64,
@@ -54,7 +54,7 @@ struct Entry {
 /// A directory: one image.
 #[derive(Debug, Default)]
 pub(super) struct Directory {
-    entries: BTreeMap<u16, Entry>,
+    entries: BTreeMap<u16, TagEntry>,
 }
 
 /// Why directories cannot be read.
@@ -140,14 +140,14 @@ impl<'a> Tiff<'a> {
             } else {
                 field(value, inline)?
             };
-            directory.entries.insert(tag, Entry { kind, count, at });
+            directory.entries.insert(tag, TagEntry { kind, count, at });
         }
         let next = self.unsigned_at(first + count * entry_width, inline).ok_or_else(outside)?;
         Ok((directory, next))
     }
 
     /// Where the values of a tag lie: type, number and offset, inside the file.
-    fn entry(&self, directory: &Directory, tag: u16) -> Result<Option<(Entry, u64)>, Reason> {
+    fn entry(&self, directory: &Directory, tag: u16) -> Result<Option<(TagEntry, u64)>, Reason> {
         let Some(&entry) = directory.entries.get(&tag) else { return Ok(None) };
         let width = width(entry.kind).unwrap_or(1);
         let inside = self.slice(entry.at, entry.count.saturating_mul(width)).is_some();

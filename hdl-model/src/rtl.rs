@@ -1,7 +1,7 @@
 //! The whole processor in RTL, with its memories: loads a set-up, draws a frame, and says what passed
 //! between the units in which cycle.
 
-use terraline::clock::Sink;
+use terraline::clock::Taker;
 use terraline::setup::{Back, Setup, TerrainUnits};
 use terraline::unit::Wire;
 use terraline::unit::height_memory::Edge;
@@ -58,12 +58,12 @@ struct Probe {
 
 impl Probe {
     /// The bits, as the emulator has them.
-    fn bits(self, rtl: &Model) -> i64 {
-        let bits = rtl.get(self.port);
+    fn bits(self, model: &Model) -> i64 {
+        let bits = model.get(self.port);
         match self.wire {
             // Red is in the low byte there.
             Wire::Color => i64::from((bits as u32).swap_bytes() >> 8),
-            wire if wire.register().is_some() => rtl.signed(self.port),
+            wire if wire.register().is_some() => model.signed(self.port),
             _ => bits as i64,
         }
     }
@@ -80,8 +80,8 @@ pub struct Cycle {
 
 /// A machine with its memories, loaded.
 #[derive(Debug)]
-pub struct Machine<'a, W: Complete> {
-    rtl: Model,
+pub struct Rtl<'a, W: Complete> {
+    model: Model,
     units: Option<&'a TerrainUnits<W>>,
     latency: u32,
     probes: Vec<Vec<Probe>>,
@@ -129,22 +129,23 @@ pub fn model_for<W: Complete>(setup: &Setup<W>) -> Result<String, String> {
     Ok(name)
 }
 
-impl<'a, W: Complete> Machine<'a, W> {
+impl<'a, W: Complete> Rtl<'a, W> {
     /// A machine that is loaded with a set-up and waits for its start.
     ///
     /// # Errors
     /// If the RTL cannot draw this set-up: its words are no stock words, or the map repeats.
     pub fn new(setup: &'a Setup<W>) -> Result<Self, String> {
-        let mut rtl = Model::new(&model_for(setup)?);
-        let six = |names: [&str; 6]| names.map(|name| rtl.port(name));
-        let probe =
-            |stage: &str, wire| rtl.find(&port_name(stage, wire)).map(|port| Probe { wire, port });
+        let mut model = Model::new(&model_for(setup)?);
+        let six = |names: [&str; 6]| names.map(|name| model.port(name));
+        let probe = |stage: &str, wire| {
+            model.find(&port_name(stage, wire)).map(|port| Probe { wire, port })
+        };
         let of_stage = |stage: &&str| {
             wires(setup, stage).into_iter().filter_map(|wire| probe(stage, wire)).collect()
         };
         let probes = STAGES.iter().map(of_stage).collect();
         let [takes, waits, pixel_ready] =
-            ["takes", "waits", "pixel_ready"].map(|name| rtl.port(name));
+            ["takes", "waits", "pixel_ready"].map(|name| model.port(name));
         let bound_ports =
             six(["bound_read", "bound_level", "bound_column", "bound_row", "bound_valid", "bound"]);
         let sample_ports = six([
@@ -162,9 +163,9 @@ impl<'a, W: Complete> Machine<'a, W> {
             Back::Terrain(units) => Some(&**units),
             Back::Plane(_) => None,
         };
-        load(&mut rtl, setup);
+        load(&mut model, setup);
         Ok(Self {
-            rtl,
+            model,
             units,
             latency,
             probes,
@@ -191,27 +192,27 @@ impl<'a, W: Complete> Machine<'a, W> {
     /// # Errors
     /// If the path cannot be passed on.
     pub fn open_trace(&mut self, path: &str) -> Result<(), String> {
-        self.rtl.open_trace(path)
+        self.model.open_trace(path)
     }
 
     /// Whether the following cycles are written to the trace.
     pub fn trace(&mut self, on: bool) {
-        self.rtl.trace(on);
+        self.model.trace(on);
     }
 
     /// Begins a frame: the next cycle is cycle 0.
     pub fn start(&mut self) {
-        let [reset, start] = ["reset", "start"].map(|name| self.rtl.port(name));
-        self.rtl.set(reset, 1);
-        self.rtl.edge();
-        self.rtl.set(reset, 0);
-        self.rtl.set(start, 1);
-        self.rtl.edge();
-        self.rtl.set(start, 0);
+        let [reset, start] = ["reset", "start"].map(|name| self.model.port(name));
+        self.model.set(reset, 1);
+        self.model.edge();
+        self.model.set(reset, 0);
+        self.model.set(start, 1);
+        self.model.edge();
+        self.model.set(start, 0);
         self.bound = Delay::new(self.latency);
         self.samples = Delay::new(self.latency);
         self.hits = Delay::new(self.latency);
-        self.start = self.rtl.cycle();
+        self.start = self.model.cycle();
     }
 
     /// One cycle. `passed` gets each unit but the frame whose item goes over to the next unit at its
@@ -221,43 +222,43 @@ impl<'a, W: Complete> Machine<'a, W> {
     /// If the machine reads beside its memories.
     pub fn cycle(
         &mut self,
-        sink: Sink,
+        taker: Taker,
         mut passed: impl FnMut(usize, Words),
     ) -> Result<Cycle, String> {
-        let now = self.rtl.cycle() - self.start;
-        self.rtl.set(self.pixel_ready, sink.is_ready(now).into());
+        let now = self.model.cycle() - self.start;
+        self.model.set(self.pixel_ready, taker.is_ready(now).into());
         if let Some(units) = self.units {
             let [_, _, _, valid, data] = &self.bound_ports[1..] else { unreachable!("six ports") };
             let answer = self.bound.answer(now);
-            self.rtl.set(*valid, answer.is_some().into());
-            self.rtl.set_signed(*data, answer.unwrap_or(0));
-            answer_nodes(&mut self.rtl, &self.sample_ports, self.samples.answer(now));
-            answer_nodes(&mut self.rtl, &self.hit_ports, self.hits.answer(now));
-            self.rtl.settle();
-            if self.rtl.is(self.bound_ports[0]) {
-                let [level, column, row] = [1, 2, 3].map(|at| self.rtl.get(self.bound_ports[at]));
+            self.model.set(*valid, answer.is_some().into());
+            self.model.set_signed(*data, answer.unwrap_or(0));
+            answer_nodes(&mut self.model, &self.sample_ports, self.samples.answer(now));
+            answer_nodes(&mut self.model, &self.hit_ports, self.hits.answer(now));
+            self.model.settle();
+            if self.model.is(self.bound_ports[0]) {
+                let [level, column, row] = [1, 2, 3].map(|at| self.model.get(self.bound_ports[at]));
                 let bound = bound(units, level as u32, column as i32, row as i32);
                 self.bound.read(now, bound);
             }
-            if let Some(nodes) = read_nodes(&self.rtl, &self.sample_ports, units)? {
+            if let Some(nodes) = read_nodes(&self.model, &self.sample_ports, units)? {
                 self.samples.read(now, nodes);
             }
-            if let Some(nodes) = read_nodes(&self.rtl, &self.hit_ports, units)? {
+            if let Some(nodes) = read_nodes(&self.model, &self.hit_ports, units)? {
                 self.hits.read(now, nodes);
             }
         } else {
-            self.rtl.settle();
+            self.model.settle();
         }
-        let cycle = Cycle { takes: self.rtl.get(self.takes), waits: self.rtl.get(self.waits) };
+        let cycle = Cycle { takes: self.model.get(self.takes), waits: self.model.get(self.waits) };
         for taker in 1..STAGES.len() {
             if cycle.takes >> taker & 1 == 1 {
                 let unit = self.before(taker);
                 let words = self.probes[unit].iter();
-                let words = words.map(|probe| (probe.wire, probe.bits(&self.rtl))).collect();
+                let words = words.map(|probe| (probe.wire, probe.bits(&self.model))).collect();
                 passed(unit, words);
             }
         }
-        self.rtl.edge();
+        self.model.edge();
         Ok(cycle)
     }
 
@@ -274,15 +275,15 @@ impl<'a, W: Complete> Machine<'a, W> {
 }
 
 /// Loads coefficients and tables.
-fn load<W: Complete>(rtl: &mut Model, setup: &Setup<W>) {
+fn load<W: Complete>(model: &mut Model, setup: &Setup<W>) {
     let [enable, space, address, data] =
-        ["load", "load_space", "load_address", "load_data"].map(|name| rtl.port(name));
+        ["load", "load_space", "load_address", "load_data"].map(|name| model.port(name));
     let mut put = |in_space: u64, at: usize, word: u64| {
-        rtl.set(enable, 1);
-        rtl.set(space, in_space);
-        rtl.set(address, at as u64);
-        rtl.set(data, word);
-        rtl.edge();
+        model.set(enable, 1);
+        model.set(space, in_space);
+        model.set(address, at as u64);
+        model.set(data, word);
+        model.edge();
     };
     for (at, word) in coefficients::words(setup) {
         put(COEFFICIENTS, at, word as u64);
@@ -307,7 +308,7 @@ fn load<W: Complete>(rtl: &mut Model, setup: &Setup<W>) {
             }
         }
     }
-    rtl.set(enable, 0);
+    model.set(enable, 0);
 }
 
 /// The bound that is stored for a level at a column and row; zero where the machine does not ask for
@@ -322,19 +323,19 @@ fn bound<W: Complete>(units: &TerrainUnits<W>, level: u32, column: i32, row: i32
 
 /// The nodes that a port of the height memory asks for.
 fn read_nodes<W: Complete>(
-    rtl: &Model,
+    model: &Model,
     ports: &[Port; 6],
     units: &TerrainUnits<W>,
 ) -> Result<Option<Nodes>, String> {
-    if !rtl.is(ports[0]) {
+    if !model.is(ports[0]) {
         return Ok(None);
     }
     let heights = &units.interpolator.heights;
     let bits = ports[1].width() / 4;
     let mut nodes = ([0; 4], 0);
     for bank in 0..4 {
-        let column = 2 * rtl.bits(ports[1], bank * bits, bits) as i32 + (bank & 1) as i32;
-        let row = 2 * rtl.bits(ports[2], bank * bits, bits) as i32 + (bank >> 1) as i32;
+        let column = 2 * model.bits(ports[1], bank * bits, bits) as i32 + (bank & 1) as i32;
+        let row = 2 * model.bits(ports[2], bank * bits, bits) as i32 + (bank >> 1) as i32;
         if column >= heights.columns() || row >= heights.rows() {
             return Err(format!(
                 "the RTL reads node {column}, {row} of a map of {} x {}",
@@ -349,18 +350,18 @@ fn read_nodes<W: Complete>(
 }
 
 /// Drives a port of the height memory with the answer of this cycle.
-fn answer_nodes(rtl: &mut Model, ports: &[Port; 6], answer: Option<Nodes>) {
-    rtl.set(ports[3], answer.is_some().into());
+fn answer_nodes(model: &mut Model, ports: &[Port; 6], answer: Option<Nodes>) {
+    model.set(ports[3], answer.is_some().into());
     let (nodes, voids) = answer.unwrap_or_default();
     let bits = ports[4].width() / 4;
     if bits == 64 {
         for (at, node) in (0..).zip(nodes) {
-            rtl.set_part(ports[4], at, node);
+            model.set_part(ports[4], at, node);
         }
     } else {
         let low = |node: u64| node & u64::from(u32::MAX);
-        rtl.set_part(ports[4], 0, low(nodes[1]) << 32 | low(nodes[0]));
-        rtl.set_part(ports[4], 1, low(nodes[3]) << 32 | low(nodes[2]));
+        model.set_part(ports[4], 0, low(nodes[1]) << 32 | low(nodes[0]));
+        model.set_part(ports[4], 1, low(nodes[3]) << 32 | low(nodes[2]));
     }
-    rtl.set(ports[5], voids);
+    model.set(ports[5], voids);
 }

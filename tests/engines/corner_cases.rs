@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use glam::{DVec2, DVec3};
 use terraline::plan::Plan;
 use terraline::scene::{
-    Deformation, Extent, Halvings, KernelShape, Outside, Scene, Stepper, StepperMode,
+    Bisection, Deformation, Extent, KernelShape, Outside, Scene, Stepper, StepperMode,
 };
 
 use super::support::{both, builtin, difference, draw_in_real, map, over, terrain};
@@ -15,7 +15,7 @@ fn hills() -> Scene {
     over(map(12, 9, |i, j| ((i * 7 + j * 11) % 13) as f32), 19, 13)
 }
 
-/// Every hostile scene with its name.
+/// Every corner case with its name.
 fn scenes() -> Vec<(String, Scene)> {
     let mut all: Vec<(String, Scene)> = Vec::new();
     let mut add = |name: String, change: &dyn Fn(&mut Scene)| {
@@ -33,7 +33,7 @@ fn scenes() -> Vec<(String, Scene)> {
         });
     }
     for scale in [1e-25, 1e-14, 1e-9, 1e-6, 1e3, 1e5, 1e7] {
-        add(format!("relief times {scale}"), &|scene| {
+        add(format!("heights times {scale}"), &|scene| {
             terrain(scene).scale = scale;
             scene.camera.position.y = 12.0 * scale + 3.0;
         });
@@ -70,9 +70,9 @@ fn scenes() -> Vec<(String, Scene)> {
         });
     }
     for (fineness, times) in [(0, 0), (0, 20), (6, 0), (6, 20)] {
-        add(format!("fineness {fineness}, {times} halvings"), &|scene| {
+        add(format!("fineness {fineness}, {times} bisection steps"), &|scene| {
             scene.stepper =
-                Stepper { mode: StepperMode::Plain, fineness, halvings: Halvings::Fixed(times) };
+                Stepper { mode: StepperMode::Plain, fineness, halvings: Bisection::Fixed(times) };
         });
     }
     for table in [16, 1 << 16] {
@@ -86,7 +86,7 @@ fn scenes() -> Vec<(String, Scene)> {
     }
     for weight_shift in [19, 30, 31, 32, 62, 63, 64] {
         add(format!("weights shifted by {weight_shift}"), &|scene| {
-            scene.kernel.deformation = Deformation::Blend { weight_shift };
+            scene.kernel.deformation = Deformation::TowardHat { weight_shift };
         });
     }
     for base_depth in [1e-9, 1e3, 1e9] {
@@ -112,7 +112,7 @@ fn scenes() -> Vec<(String, Scene)> {
 }
 
 #[test]
-fn hostile_scenes_are_refused_or_drawn() {
+fn corner_cases_are_refused_or_drawn() {
     let (mut drawn, mut refused, mut wrong) = (0, Vec::new(), Vec::new());
     for (name, scene) in scenes() {
         for full in [false, true] {
@@ -150,7 +150,7 @@ fn what_is_refused_names_the_field_to_change() {
         let message = error.to_string();
         // The part of the scene that is out of bounds; moving the eye would not help the others.
         let field = match name.split(' ').next() {
-            Some("cells" | "relief" | "base") => "surface.",
+            Some("cells" | "heights" | "base") => "surface.",
             _ if name.ends_with("degrees") => "screen.",
             Some("pixels" | "screen") => "screen.",
             _ => "camera.position",

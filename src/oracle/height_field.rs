@@ -9,7 +9,7 @@ use crate::scene::{Kernel, Outside, Terrain};
 
 /// A terrain, its kernel and its bounds.
 #[derive(Clone, Debug)]
-pub struct Ground {
+pub struct HeightField {
     terrain: Terrain,
     stencil: Stencil,
     axes: (Axis, Axis),
@@ -18,7 +18,7 @@ pub struct Ground {
     holed: bool,
 }
 
-impl Ground {
+impl HeightField {
     /// The surface of a terrain under a kernel.
     #[must_use]
     pub fn new(terrain: &Terrain, kernel: Kernel) -> Self {

@@ -1,8 +1,9 @@
-// How often a hit is halved, from the largest component of its distance from the eye (equation 22).
+// How many bisection steps refine a hit, from the largest component of its distance from the eye
+// (equation 22).
 //
 // `any` is that of the place of the cycle before, `times` that of two cycles before: whether there are
-// halvings at all is needed at once, how many only with the first answer.
-module halvings #(
+// bisection steps at all is needed at once, how many only with the first answer.
+module bisection #(
     parameter int W     = 32,  // bits of a word
     parameter int POINT = 20   // bits after the point
 ) (
@@ -11,9 +12,9 @@ module halvings #(
     input  logic signed [W-1:0] eye_x,   // the eye, x in cells
     input  logic signed [W-1:0] eye_y,   // y in height units
     input  logic signed [W-1:0] eye_z,   // z in cells
-    input  logic                fixed,   // always `cap` halvings
-    input  logic signed [  7:0] bias,    // halvings at distance one
-    input  logic        [  5:0] cap,     // most halvings
+    input  logic                fixed,   // always `cap` bisection steps
+    input  logic signed [  7:0] bias,    // bisection steps at distance one
+    input  logic        [  5:0] cap,     // most bisection steps
     // The hit
     input  logic signed [W-1:0] x,       // place, x
     input  logic signed [W-1:0] y,       // height
@@ -39,15 +40,15 @@ module halvings #(
       .place(leading)
   );
 
-  // Of coefficients alone: halvings where the leading one is in the last place, places from which on there
-  // are none, and whether there are none at all.
+  // Of coefficients alone: bisection steps where the leading one is in the last place, places from which on
+  // there are none, and whether there are none at all.
   logic signed [9:0] reach, wanted;
-  logic [W-1:0] too_far;
+  logic [W-1:0] beyond;
   logic never;
 
   assign reach = 10'(bias) + 10'(POINT);
   always_ff @(posedge clock) begin
-    for (int at = 0; at < W; at++) too_far[at] <= reach <= $signed(10'(at));
+    for (int at = 0; at < W; at++) beyond[at] <= reach <= $signed(10'(at));
     never <= cap == '0 || (!fixed && reach < 0);
   end
 
@@ -56,7 +57,7 @@ module halvings #(
               | (away_z < 0 ? toward_z : away_z);
     leading_2 <= leading;
   end
-  assign any = !never && (fixed || (distance & too_far) == '0);
+  assign any = !never && (fixed || (distance & beyond) == '0);
   assign wanted = reach - 10'(leading_2);
   assign times = fixed || wanted > $signed({4'b0, cap}) ? cap : wanted[5:0];
 endmodule

@@ -5,11 +5,11 @@
 // The fall is the negated derivative of the weight, which the hat has one of. The shift rounds
 // toward zero: a floor would leave −1 ulp of a negative difference however far it is shifted. A
 // difference that is not shifted gives the kernel itself, one that is shifted away the hat.
-module blend #(
+module hat_weight #(
     parameter int POINT = 20  // fraction bits of a weight
 ) (
     input  logic             clock,
-    input  logic [      1:0] form,      // 0 the kernel, 1 blend, 2 the hat
+    input  logic [      1:0] form,      // 0 the kernel, 1 toward the hat, 2 the hat
     input  logic [      5:0] shift,     // of the difference; from the width of a word on, none is left
     input  logic [POINT-1:0] fraction,  // of the place in its cell
     input  logic [  POINT:0] kernel,    // the kernel's weight, in [0, 1]

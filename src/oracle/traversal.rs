@@ -1,9 +1,9 @@
-//! The walk of a ray over the patches, which finds every crossing of the surface.
+//! The traversal of a ray over the patches, which finds every crossing of the surface.
 //!
 //! Along the ray the gap is `g(λ) = y_ray − y(x, z)`. In one patch the slopes bound its rate and
 //! the curvatures bound the change of its rate by K, so that from a gap g > 0 with rate g′ no
 //! crossing lies nearer than `g / (greatest possible rate of fall)`, nor nearer than the positive
-//! root of `g + g′ δ − K δ²/2 = 0`. The walk advances by the longer of the two: it cannot jump
+//! root of `g + g′ δ − K δ²/2 = 0`. The traversal advances by the longer of the two: it cannot jump
 //! over a crossing, and near a crossing it converges like Newton's method, from the front.
 //! Patches, and blocks of them, whose nodes the ray clears are passed over whole.
 //!
@@ -12,10 +12,10 @@
 
 use super::camera::Ray;
 use super::extrema::Span;
-use super::ground::Ground;
+use super::height_field::HeightField;
 use super::patch::Patch;
 
-/// Advances in one patch before the walk gives up and calls the pixel tangent.
+/// Advances in one patch before the traversal gives up and calls the pixel tangent.
 const ADVANCES: usize = 400;
 /// Bisections of a bracket; more than the bits of a double.
 const BISECTIONS: usize = 128;
@@ -30,7 +30,7 @@ pub struct Track {
 impl Track {
     /// The track of a ray over a ground.
     #[must_use]
-    pub fn new(ground: &Ground, ray: &Ray) -> Self {
+    pub fn new(ground: &HeightField, ray: &Ray) -> Self {
         let cell = ground.terrain().cell;
         let (x, z) = ground.patch_coordinates(ray.eye.x, ray.eye.z);
         Self {
@@ -80,7 +80,7 @@ impl Track {
 pub struct Crossing {
     /// Where on the ray.
     pub lambda: f64,
-    /// In which patch.
+    /// Indices of the patch in which it lies, x and z.
     pub patch: (i64, i64),
     /// It is a side of a hole that is crossed, not the surface.
     pub side: bool,
@@ -88,8 +88,8 @@ pub struct Crossing {
 
 /// A ray on its way over the ground.
 #[derive(Clone, Debug)]
-pub struct Walk<'a> {
-    ground: &'a Ground,
+pub struct Traversal<'a> {
+    ground: &'a HeightField,
     track: Track,
     lambda: f64,
     end: f64,
@@ -107,11 +107,11 @@ pub struct Walk<'a> {
     touches: usize,
 }
 
-impl<'a> Walk<'a> {
-    /// A walk from λ `start` to `end`, which must lie in the domain, on the stated side of the
+impl<'a> Traversal<'a> {
+    /// A traversal from λ `start` to `end`, which must lie in the domain, on the stated side of the
     /// surface: y ≥ surface is above.
     #[must_use]
-    pub fn new(ground: &'a Ground, track: Track, start: f64, end: f64, above: bool) -> Self {
+    pub fn new(ground: &'a HeightField, track: Track, start: f64, end: f64, above: bool) -> Self {
         let [px, y, pz] = track.at(start);
         let (low, high) = ground.range();
         // A few roundings of the heights and of the position, by the slope it is seen through.
@@ -142,7 +142,7 @@ impl<'a> Walk<'a> {
         self.touches + usize::from(self.closing)
     }
 
-    /// Whether the ray is above the surface where the walk now is.
+    /// Whether the ray is above the surface where the traversal now is.
     #[must_use]
     pub fn above(&self) -> bool {
         self.above
@@ -155,7 +155,7 @@ impl<'a> Walk<'a> {
         self
     }
 
-    /// The next crossing, either way, or `None` at the end of the walk.
+    /// The next crossing, either way, or `None` at the end of the traversal.
     pub fn next_crossing(&mut self) -> Option<Crossing> {
         while self.lambda < self.end && !self.is_clear_for_good() {
             if let Some((x, z)) = self.clear_block() {
@@ -205,7 +205,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// λ at which the walk leaves a rectangle of patches, or ends.
+    /// λ at which the traversal leaves a rectangle of patches, or ends.
     fn exit(&self, x: Span, z: Span) -> f64 {
         let exit = self.track.leaves(0, x).min(self.track.leaves(2, z));
         exit.min(self.end).max(self.lambda)

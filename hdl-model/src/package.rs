@@ -32,15 +32,15 @@ pub fn package() -> String {
     }
     out.push_str("\n  // Registers: format with narrow and with wide words\n");
     for &register in Register::ALL {
-        let entry = table::entry(register);
+        let row = table::row(register);
         let _ = writeln!(
             out,
             "  //   {:<13} {:<7} {:<7} {}, {}",
             register.name(),
             WordClass::NARROW.fixed(register).to_string(),
             WordClass::WIDE.fixed(register).to_string(),
-            entry.meaning,
-            entry.measure,
+            row.meaning,
+            row.measure,
         );
     }
     out.push_str("\n  // Cycles (docs/cycles.md)\n");

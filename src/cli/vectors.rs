@@ -87,7 +87,7 @@ impl Vectors {
             columns: plan.geometry.columns,
             lines: plan.geometry.lines,
             pixels: selection.pixels(),
-            selection: &selection.said,
+            selection: &selection.description,
             corner_cases: self.corner_cases,
             seed,
             written,

@@ -99,7 +99,7 @@ impl Vectors<'_> {
             format!("screen {} {} {}", screen.columns, screen.lines, screen.name.escape_default()),
             format!("program terraline {}", env!("CARGO_PKG_VERSION")),
             format!("world {}, {fitted}", self.machine.world().name()),
-            format!("pixels {}", self.selection.said),
+            format!("pixels {}", self.selection.description),
             format!("seed {}", self.seed),
         ]
     }

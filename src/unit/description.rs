@@ -74,7 +74,7 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// A pipeline that takes an item every this many cycles, with a queue for all that it holds.
+    /// A pipeline that takes an item every `every` cycles, with a queue for all that it holds.
     pub const fn pipeline(every: u32, latency: u32) -> Self {
         Self { work: Cycles::every(every), latency, depth: latency + 1 }
     }

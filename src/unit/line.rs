@@ -69,8 +69,8 @@ pub enum When {
 }
 
 impl When {
-    /// In words, for the pages of files.
-    pub fn said(self) -> &'static str {
+    /// What the header of a file adds to a meaning; nothing where it is always valid.
+    pub fn note(self) -> &'static str {
         match self {
             Self::Always => "",
             Self::Entered => "; valid if met",

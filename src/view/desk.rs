@@ -33,7 +33,7 @@ pub(super) struct State {
     pub explain: VecDeque<(u32, u32)>,
     pub idle: bool,
     pub snapshot: Arc<Snapshot>,
-    pub said: Vec<String>,
+    pub messages: Vec<String>,
 }
 
 /// Where window and render worker meet.
@@ -127,7 +127,7 @@ impl Desk {
 
     /// Something for the terminal.
     pub fn say(&self, text: String) {
-        self.state().said.push(text);
+        self.state().messages.push(text);
     }
 
     /// A newer order, or the end: what is being drawn is no longer wanted.

@@ -204,9 +204,9 @@ impl<'a> View<'a> {
 
     /// Prints what the render worker has to say.
     fn say(&mut self) -> bool {
-        let said = self.worker.said();
-        said.iter().for_each(|text| (self.print)(text));
-        !said.is_empty()
+        let messages = self.worker.take_messages();
+        messages.iter().for_each(|text| (self.print)(text));
+        !messages.is_empty()
     }
 
     fn present(&mut self, timed: bool) -> Result<(), RunError> {

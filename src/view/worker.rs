@@ -60,7 +60,7 @@ impl RenderWorker {
         self.desk.want(|state| state.look = Some(place));
     }
 
-    /// Explains a pixel, see [`RenderWorker::said`].
+    /// Has a pixel explained; the text comes by [`RenderWorker::take_messages`].
     pub fn explain(&self, place: (u32, u32)) {
         self.desk.want(|state| state.explain.push_back(place));
     }
@@ -71,10 +71,10 @@ impl RenderWorker {
         Arc::clone(&self.desk.state().snapshot)
     }
 
-    /// What is to be printed, once.
+    /// What there is to print since the last call, for the terminal.
     #[must_use]
-    pub fn said(&self) -> Vec<String> {
-        std::mem::take(&mut self.desk.state().said)
+    pub fn take_messages(&self) -> Vec<String> {
+        std::mem::take(&mut self.desk.state().messages)
     }
 
     /// Whether the thread has ended, which only a defect makes it do.

@@ -39,7 +39,7 @@ impl WithSetup for Grade<'_> {
         for file in files.values() {
             let size = format!("{} {} ", plan.geometry.columns, plan.geometry.lines);
             let said = file.scene["scene"] == scene.name && file.scene["screen"].starts_with(&size);
-            if !said || file.scene["pixels"] != self.selection.said {
+            if !said || file.scene["pixels"] != self.selection.description {
                 return Err(format!("{} is of another scene", file.name));
             }
         }

@@ -47,7 +47,7 @@ pub struct Selection {
     /// Lines, ascending, and columns on them.
     pub lines: Vec<(u32, Columns)>,
     /// The choice in words, for headers and reports.
-    pub said: String,
+    pub description: String,
 }
 
 impl Selection {
@@ -59,18 +59,20 @@ impl Selection {
             Choice::Lines(from, to) => {
                 let to = to.min(lines);
                 let last = to.saturating_sub(1);
-                let said = format!("lines {from} to {last} of {lines}");
-                Self { lines: (from..to).map(whole).collect(), said }
+                let description = format!("lines {from} to {last} of {lines}");
+                Self { lines: (from..to).map(whole).collect(), description }
             }
             Choice::Strips(count) if count < lines => {
                 let chosen = Sample::whole_lines(plan, count, seed).lines;
                 let strips = if count == 1 { "" } else { "one out of each of as many strips, " };
-                let said = format!("{count} of {lines} lines at random, {strips}seed {seed}");
-                Self { lines: chosen.into_iter().map(whole).collect(), said }
+                let description =
+                    format!("{count} of {lines} lines at random, {strips}seed {seed}");
+                Self { lines: chosen.into_iter().map(whole).collect(), description }
             }
-            Choice::Strips(_) => {
-                Self { lines: (0..lines).map(whole).collect(), said: format!("all {lines} lines") }
-            }
+            Choice::Strips(_) => Self {
+                lines: (0..lines).map(whole).collect(),
+                description: format!("all {lines} lines"),
+            },
             Choice::Pixels(count) => {
                 let all = u64::from(columns) * u64::from(lines);
                 let count = u64::from(count).min(all);
@@ -85,8 +87,8 @@ impl Selection {
                         _ => chosen.push((line, Columns::Some(vec![column]))),
                     }
                 }
-                let said = format!("{count} of {all} pixels at random, seed {seed}");
-                Self { lines: chosen, said }
+                let description = format!("{count} of {all} pixels at random, seed {seed}");
+                Self { lines: chosen, description }
             }
         }
     }

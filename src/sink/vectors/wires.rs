@@ -31,7 +31,7 @@ pub fn heading<W: World>(world: &W, way: Way, wire: Wire) -> Heading {
         Wire::Color => COLOR,
         _ => wire.register().map_or(COUNT, |register| notation(world, register)),
     };
-    let meaning = format!("{}{}", wire.meaning(), wire.when().said());
+    let meaning = format!("{}{}", wire.meaning(), wire.when().note());
     Heading { way, name: wire.name().into(), notation, meaning }
 }
 

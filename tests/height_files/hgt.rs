@@ -67,7 +67,7 @@ fn zipped_tiles() {
 #[test]
 fn tiles_that_are_none() {
     refused(&tile(1201)[..2_884_800], "N36W085.hgt", &["2884800 bytes", "2884802"]);
-    refused(&[], "N36W085.hgt", &["no square"]);
-    refused(&[1, 2], "N36W085.hgt", &["no square"]);
+    refused(&[], "N36W085.hgt", &["not a square"]);
+    refused(&[1, 2], "N36W085.hgt", &["not a square"]);
     refused(&[0x80, 0, 0x80, 0, 0x80, 0, 0x80, 0], "N36W085.hgt", &["no node has data"]);
 }

@@ -115,8 +115,8 @@ struct Surface<'a> {
 
 impl Surface<'_> {
     fn node(&self, i: i128, j: i128) -> Result<i128, String> {
-        let (columns, rows) = (self.file.register("columns"), self.file.register("rows"));
-        let address = |index: i128, size: i64| match self.file.register("edge") {
+        let (columns, rows) = (self.file.register("map_columns"), self.file.register("map_rows"));
+        let address = |index: i128, size: i64| match self.file.register("map_edge") {
             2 => index.rem_euclid(size.into()),
             _ => index.clamp(0, i128::from(size) - 1),
         };

@@ -75,7 +75,7 @@ impl Picture {
         }
     }
 
-    /// True if the picture is drawn from [`Frame::buffers`].
+    /// True if the picture is drawn from [`buffers`](crate::frame::Frame::buffers).
     pub fn needs_buffers(self) -> bool {
         matches!(self, Self::Height | Self::Normal | Self::Steps)
     }

@@ -73,7 +73,7 @@ impl Folder {
     fn json(&self, arguments: &[&str]) -> Value {
         let text = self.prints(&[arguments, &["--json"]].concat());
         let object: Value = serde_json::from_str(&text).expect("one JSON value on stdout");
-        assert_eq!(object["schema"], 1);
+        assert_eq!(object["schema"], 2);
         assert_eq!(object["command"], arguments[0]);
         assert_eq!(object["version"], env!("CARGO_PKG_VERSION"));
         object

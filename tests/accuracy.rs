@@ -48,13 +48,14 @@ fn within(what: &str, spread: Option<Spread>, median: f64, p999: f64) {
     assert!(spread.p999 <= p999, "{what}: 99.9 % within {}", spread.p999);
 }
 
-/// What every scene must keep, fixed point and the algorithm by itself.
+/// What every scene must keep, fixed point and the algorithm by itself. Limits are about twice what
+/// is measured, which is printed.
 #[track_caller]
 fn keeps(report: &ErrorReport, same_sheet: f64, silhouettes: f64) {
     let share = |count: usize| count as f64 / report.pixels as f64;
     assert!(share(report.same_sheet) > same_sheet, "{} on the same sheet", report.same_sheet);
     assert!(share(report.silhouettes) < silhouettes, "{} silhouettes", report.silhouettes);
-    assert!(report.color_within_2 >= 0.998, "colours within 2: {}", report.color_within_2);
+    assert!(report.color_within_2 >= 0.999, "colours within 2: {}", report.color_within_2);
 }
 
 #[test]
@@ -62,8 +63,8 @@ fn terrains_keep_their_bounds() {
     for (name, same_sheet) in [("overview", 0.5), ("flight", 0.5), ("valley", 0.4)] {
         let report = errors(&builtin(name, 1024, 1024), 128);
         keeps(&report, same_sheet, 0.001);
-        within("total", report.total_px, 1.0 / 32.0, 0.25);
-        within("algorithm", report.algorithm_px, 1.0 / 32.0, 0.25);
+        within("total", report.total_px, 0.006, 0.02);
+        within("algorithm", report.algorithm_px, 0.0025, 0.013);
     }
 }
 
@@ -74,7 +75,7 @@ fn wide_words_keep_the_bounds_of_narrow_ones() {
         scene.machine.words = WordSize::Wide;
         let report = errors(&scene, 64);
         keeps(&report, 0.4, 0.002);
-        within("total", report.total_px, 1.0 / 32.0, 0.25);
+        within("total", report.total_px, 0.0025, 0.015);
         // What is left is the algorithm's own error.
         assert!(
             report.quantisation_px.expect("pixels").median
@@ -84,22 +85,22 @@ fn wide_words_keep_the_bounds_of_narrow_ones() {
 }
 
 #[test]
-fn the_largest_screens_keep_half_a_pixel() {
+fn the_largest_screens_keep_a_fifteenth_of_a_pixel() {
     for name in support::TERRAINS {
         let report = errors(&builtin(name, 8192, 8192), 64);
         keeps(&report, 0.4, 0.002);
-        within("total", report.total_px, 1.0 / 16.0, 0.5);
-        within("algorithm", report.algorithm_px, 1.0 / 16.0, 0.5);
+        within("total", report.total_px, 0.007, 1.0 / 15.0);
+        within("algorithm", report.algorithm_px, 0.007, 1.0 / 15.0);
     }
 }
 
 #[test]
 fn planes_keep_their_bounds() {
-    for (side, strips, p999) in [(1024, 128, 0.25), (8192, 64, 0.5)] {
+    for (side, strips, median, p999) in [(1024, 128, 6e-4, 0.002), (8192, 64, 3e-4, 8e-4)] {
         let report = errors(&builtin("plane", side, side), strips);
         keeps(&report, 0.5, 0.001);
         // A square's border may fall on either side of a pixel's centre.
-        within("total", report.total_px, 1.0 / 32.0, p999);
+        within("total", report.total_px, median, p999);
         assert!(report.algorithm_px.expect("pixels").max < 1e-6, "a ratio in f64 is exact");
     }
 }
@@ -114,8 +115,8 @@ fn every_kernel_keeps_its_bounds() {
             scene.name = format!("{shape:?} {deformation:?}");
             let report = errors(&scene, 128);
             keeps(&report, 0.5, 0.002);
-            within("total", report.total_px, 1.0 / 32.0, 0.25);
-            within("algorithm", report.algorithm_px, 1.0 / 32.0, 0.25);
+            within("total", report.total_px, 0.0035, 0.02);
+            within("algorithm", report.algorithm_px, 0.0035, 0.02);
         }
     }
 }
@@ -153,6 +154,6 @@ fn random_scenes_keep_their_bounds() {
     println!("{same} same sheet, {silhouettes} silhouettes, {total:?}, colour {close:.5}");
     assert!(same > 20_000, "{same} pixels on the same sheet");
     assert!((silhouettes as f64) < 0.005 * all.len() as f64, "{silhouettes} silhouettes");
-    within("total", total, 1.0 / 32.0, 0.25);
+    within("total", total, 0.0025, 0.13);
     assert!(close > 0.99, "colours within 2: {close}");
 }

@@ -181,3 +181,18 @@ fn sampled_lines_estimate_the_frame() {
     let scaled = machine.cost(&some, &some).expect("a cost").cycles as f64;
     assert!((scaled / exact - 1.0).abs() < 0.05, "{scaled} for {exact}");
 }
+
+#[test]
+fn the_longer_quotient_takes_the_time() {
+    let latency = |sets: &[&str]| {
+        let sets = [&["screen.size=[8, 8]"], sets].concat();
+        let cost = cost("plane", &sets);
+        cost.units.iter().find(|unit| unit.name == "divider").expect("fitted").latency_cycles
+    };
+    // 20 bits after the point in stock words, 30 here.
+    let longer = "{ width = 48, point = 30 }";
+    for axis in ["ground_x", "ground_z"] {
+        let set = format!("format.{axis}={longer}");
+        assert_eq!(latency(&[&set]), latency(&[]) + 10, "{axis}");
+    }
+}

@@ -134,10 +134,11 @@ impl<W: Dividing> Unit<W> for Divider<W> {
     }
 
     fn timing(&self, _: u32) -> Timing {
-        timing(self.bits[0], self.serial)
+        timing(self.quotient_bits(), self.serial)
     }
 
+    /// The axes divide side by side: the longer quotient takes the time.
     fn quotient_bits(&self) -> u32 {
-        self.bits[0]
+        self.bits[0].max(self.bits[1])
     }
 }

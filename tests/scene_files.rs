@@ -7,8 +7,8 @@ use peak_alloc::PeakAlloc;
 use support::described;
 use terraline::scene::file::{Document, parse};
 use terraline::scene::{
-    Angles, Attitude, Bisection, Extent, FormatRequest, NoData, Overflow, Rounding, Scene,
-    SceneError, Surface, Terrain, builtin, load,
+    Angles, Attitude, Bisection, Extent, FormatRequest, NoData, Outside, Overflow, Rounding, Scene,
+    SceneError, StepperMode, Surface, Terrain, WordSize, builtin, load,
 };
 use terraline::word::{Class, Register, Registers};
 
@@ -131,6 +131,7 @@ fn an_empty_file_is_the_default_scene() {
 fn keys_go_where_they_belong() {
     let scene = scene(EVERY_TABLE, &[]);
     assert_eq!((scene.unit_m, scene.camera.offset), (10.0, DVec3::Y));
+    assert_eq!(scene.camera.position, DVec3::new(1.0, 2.5, -300.0));
     assert_eq!(angles(&scene).roll, (-1.0_f64).to_radians());
     let [left, right] = scene.screens.as_slice() else { panic!("two screens") };
     assert_eq!((left.columns, left.lines, right.columns), (640, 480, 1024));
@@ -140,7 +141,11 @@ fn keys_go_where_they_belong() {
     let terrain = terrain(&scene);
     assert_eq!((terrain.nodata, terrain.base_depth), (NoData::Sample(-32768.0), Some(4.0)));
     assert_eq!((terrain.offset, terrain.scale), (0.0, 1.0));
+    assert_eq!((terrain.cell, terrain.outside), (DVec2::new(2.0, 3.0), Outside::Wrap));
     assert_eq!(scene.stepper.halvings, Bisection::Fixed(20));
+    assert_eq!((scene.stepper.mode, scene.kernel.table), (StepperMode::Plain, 16));
+    assert_eq!(scene.color.checker, [[4; 3], [5; 3]]);
+    assert_eq!((scene.machine.clock_mhz, scene.machine.words), (0.5, WordSize::Wide));
     assert_eq!((scene.light.direction, scene.color.ramp.len()), (DVec3::Y, 3));
     // In the order of the file, so that a register may refine its class.
     let coarse = FormatRequest {

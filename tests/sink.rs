@@ -202,6 +202,21 @@ fn buffers_survive_a_round_trip() {
 
     let mut npz = Npz::open(&path).unwrap();
     assert_eq!(npz.names(), TABLE.each_ref().map(|row| row.name));
+    let types = TABLE.each_ref().map(|row| (row.name, row.dtype, row.components));
+    assert_eq!(
+        types,
+        [
+            ("hit", Dtype::U1, 1),
+            ("lambda", Dtype::F8, 1),
+            ("ground_x", Dtype::F8, 1),
+            ("ground_z", Dtype::F8, 1),
+            ("height", Dtype::F8, 1),
+            ("normal", Dtype::F8, 3),
+            ("steps", Dtype::U4, 1),
+            ("trials", Dtype::U4, 1),
+            ("color", Dtype::U1, 3),
+        ]
+    );
     for (row, scalars) in frame.arrays() {
         let array = npz.array(row.name).unwrap();
         let mut shape = vec![101, 200];

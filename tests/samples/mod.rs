@@ -26,7 +26,7 @@ pub fn frame(columns: usize, lines: usize) -> Frame {
             height: value(i, 1e12),
             normal: [value(i, 0.1), value(i, -0.1), value(i, 0.5)],
             steps: i as u32 * 65_537,
-            ..Pixel::MISS
+            trials: i as u32,
         };
         frame.buffers.as_mut().expect("asked for").push(pixel, Giver::Processor);
     }

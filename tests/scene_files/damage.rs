@@ -8,7 +8,7 @@ use super::wild::{edge, number, numbers};
 
 /// Texts that mean something in a scene file.
 const TOKENS: &str = "= . , [ ] [[ ]] { } \" ' # \\ \"\"\" - e9 e-9 0 9 nan \u{feff} \u{0} \u{85} ü \
-                      [camera]\n [[screen]]\n [[surface]]\n [format]\n \nkind=\"plane\"\n";
+                      [camera]\n [[screen]]\n [[surface]]\n [format]\n \nkind=\"plane\"\n \n";
 
 /// One change of a text.
 #[derive(Clone, Debug)]

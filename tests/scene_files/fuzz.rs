@@ -179,8 +179,8 @@ fn from_grid((grid, sets): (String, Vec<String>)) -> Result<Scene, Stop> {
 fn reads_back(scene: &Scene, text: &str) -> Result<(), Stop> {
     match parsed(text, &[]) {
         Ok(again) => {
-            let camera = scene.camera.clone();
-            let turned = Scene { camera, ..again.clone() };
+            let mut turned = again.clone();
+            turned.camera.attitude.clone_from(&scene.camera.attitude);
             if written(&again) == written(scene) && described(&turned) == described(scene) {
                 return Ok(());
             }

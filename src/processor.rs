@@ -57,9 +57,11 @@ impl<'a, W: Complete> Processor<'a, W> {
         self.next += 1;
     }
 
-    /// The line that [`Processor::run_line`] draws next.
-    pub fn next_line(&self) -> u32 {
-        self.next
+    /// Skips the lines before this one; nothing if it is behind already.
+    pub fn skip_to(&mut self, number: u32) {
+        while self.next < number {
+            self.skip_line();
+        }
     }
 }
 
@@ -73,9 +75,7 @@ pub fn run_lines<W: Complete>(
 ) {
     let mut processor = Processor::new(setup);
     for number in lines {
-        while processor.next_line() < number {
-            processor.skip_line();
-        }
+        processor.skip_to(number);
         if !processor.run_line(line) {
             break;
         }

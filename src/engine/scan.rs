@@ -16,7 +16,7 @@ use crate::setup::{Setup, SetupError};
 use crate::unit::Line;
 use crate::word::Complete;
 
-/// Whether the work is no longer wanted; asked between lines.
+/// Whether the work is no longer wanted; asked between lines, or parts of them.
 pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// What is wanted of a scan beside colours and outcomes.
@@ -176,9 +176,7 @@ impl Machine<'_> {
     ) -> Scan<'a> {
         let reader = Reader::new(self.plan);
         let mut processor = Processor::new(setup);
-        while processor.next_line() < lines.start {
-            processor.skip_line();
-        }
+        processor.skip_to(lines.start);
         let mut line = processor.wires();
         let mut clock = wanted.cycles.then(|| Clock::new(Chain::new(setup)));
         Scan::new(lines, move |lines, stop| {

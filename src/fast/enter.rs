@@ -69,13 +69,7 @@ impl Enterable for Sweep {
 
 /// The projector's accumulators at the first column of line `number`.
 pub fn line_start<W: Enterable>(projector: &Projector<W>, number: u32) -> LineStart<W> {
-    let at = |c: &Linear<W::View>| c.start.after(c.per_line, number);
-    LineStart {
-        x: at(&projector.x),
-        y: at(projector.y.as_ref().unwrap_or(&projector.x)),
-        z: at(&projector.z),
-        denominator: at(projector.denominator.as_ref().unwrap_or(&projector.x)),
-    }
+    projector.line_start(|c| c.start.after(c.per_line, number))
 }
 
 /// Drives the view wires of one whole line.

@@ -63,13 +63,13 @@ impl MaskedTable {
     /// The bits of an address.
     pub const MASK: i32 = Self::ENTRIES as i32 - 1;
 
-    fn new<T: Readout>(words: &Table<T>, point: u32) -> Self {
-        let one = libm::exp2(f64::from(point));
+    /// `None` where words have no bits, or more than this copy has room for.
+    fn new<T: Readout>(words: &Table<T>) -> Option<Self> {
         let mut table = Box::new([0; Self::ENTRIES]);
-        for (to, from) in table.iter_mut().zip(words.entries()) {
-            *to = (from.value() * one) as i32;
+        for (to, from) in table.get_mut(..words.entries().len())?.iter_mut().zip(words.entries()) {
+            *to = from.raw()?.try_into().ok()?;
         }
-        Self(table)
+        Some(Self(table))
     }
 
     /// The entry at a masked address.
@@ -98,16 +98,21 @@ impl<W: Open> Map<W> {
         if !(plan.fitted.pyramid && cells && top + (point as i32) < 62) {
             return None;
         }
-        let weight_point = world.fixed(Register::Weight)?.point;
-        let weights = |rom: &KernelRom<W::Weight>| Weights {
-            log2: rom.log2(),
-            weight: MaskedTable::new(rom.weights(), weight_point),
-            slope: MaskedTable::new(rom.slopes(), weight_point),
+        let weights = |rom: &KernelRom<W::Weight>| {
+            Some(Weights {
+                log2: rom.log2(),
+                weight: MaskedTable::new(rom.weights())?,
+                slope: MaskedTable::new(rom.slopes())?,
+            })
+        };
+        let weights = match &memory.rom {
+            Some(rom) => Some(weights(rom)?),
+            None => None,
         };
         Some(Self {
             maxima: maxima(heights, top, form, point),
             cells: Cells::new(heights),
-            weights: memory.rom.as_deref().map(weights),
+            weights,
             bend: bend(&scene.kernel, form),
         })
     }

@@ -130,7 +130,7 @@ pub struct Source<'a, W: World> {
 }
 
 /// Draws lines of a frame on all threads and shows every finished one to `look`, in no particular
-/// order. `None` if `stop`, which is asked between lines, said so.
+/// order. `None` if `stop`, which is asked every few lines, said so.
 pub fn draw<W: Enterable>(
     source: Source<'_, W>,
     lines: Range<u32>,

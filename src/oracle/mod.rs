@@ -57,7 +57,7 @@ pub struct Sighting {
     pub hit: Hit,
     /// λ of `r_p = r_h + λ V`; NaN on a miss.
     pub lambda: f64,
-    /// HeightField point, scene units; y is the height of the surface at (x, z), which for a side of
+    /// Ground point, scene units; y is the height of the surface at (x, z), which for a side of
     /// the map is its rim above the point seen. NaN on a miss.
     pub point: DVec3,
     /// Unit normal of the surface at (x, z); for a plane, the plane's own. NaN on a miss.

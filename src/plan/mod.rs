@@ -10,7 +10,9 @@ mod proof;
 pub mod ranges;
 pub mod units;
 
-use crate::scene::{Deformation, KernelShape, Scene, Screen, StepperMode, Surface, Terrain};
+use crate::scene::{
+    Deformation, KernelShape, Scene, Screen, StepperMode, Surface, Terrain, WordSize,
+};
 use crate::word::{Class, Fixed, Register};
 use geometry::Geometry;
 use proof::Finding;
@@ -83,6 +85,17 @@ impl WordClass {
     pub const NARROW: Self = Self { name: "narrow", width: 32, view_point: 30, ground_point: 20 };
     /// 64 bits: places to 2^24 cells, in steps of 2^-24.
     pub const WIDE: Self = Self { name: "wide", width: 64, view_point: 38, ground_point: 24 };
+
+    /// The words whose walk a scene's own formats take: those asked for, else narrow ones where
+    /// they would hold.
+    fn of_sweep(asked: WordSize, narrow_holds: impl FnOnce() -> bool) -> Self {
+        match asked {
+            WordSize::Narrow => Self::NARROW,
+            WordSize::Wide => Self::WIDE,
+            WordSize::Auto if narrow_holds() => Self::NARROW,
+            WordSize::Auto => Self::WIDE,
+        }
+    }
 
     /// Largest magnitude of a ground or height register that the plan allows.
     pub fn ground_limit(self) -> f64 {

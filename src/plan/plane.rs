@@ -51,12 +51,7 @@ impl PlanePlan {
             plan.proof(geometry, &Formats::stock(words), coarsest).holds().map(|_| plan)
         };
         if !requests.is_empty() {
-            let narrow = match asked {
-                WordSize::Narrow => true,
-                WordSize::Wide => false,
-                WordSize::Auto => stock(WordClass::NARROW, FINE).is_ok(),
-            };
-            let plan = of(if narrow { WordClass::NARROW } else { WordClass::WIDE });
+            let plan = of(WordClass::of_sweep(asked, || stock(WordClass::NARROW, FINE).is_ok()));
             if plan.places().1 > LARGEST_PLACE {
                 return Err(plan.too_far(Register::GroundX).into());
             }

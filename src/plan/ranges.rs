@@ -106,12 +106,7 @@ impl TerrainPlan {
             Ok((walk, facts))
         };
         if !requests.is_empty() {
-            let narrow = match asked {
-                WordSize::Narrow => true,
-                WordSize::Wide => false,
-                WordSize::Auto => stock(WordClass::NARROW).is_ok(),
-            };
-            let walk = of(if narrow { WordClass::NARROW } else { WordClass::WIDE });
+            let walk = of(WordClass::of_sweep(asked, || stock(WordClass::NARROW).is_ok()));
             walk.check_counters()?;
             let formats = Formats { words: walk.words, requests };
             let finding = walk.proof(geometry, &formats).told(&formats);

@@ -20,6 +20,13 @@ table! {
     }
 }
 
+impl Hardware {
+    /// Frames per second at this many cycles a frame.
+    pub fn frames_per_second(&self, cycles: u64) -> f64 {
+        self.clock_mhz * 1e6 / cycles.max(1) as f64
+    }
+}
+
 words! {
     /// Form of the divider: quotients and remainders are the same, cycles are not.
     pub enum RatioForm {

@@ -19,7 +19,6 @@ use serde::Serialize;
 
 use super::SinkError;
 use super::folder::NewFolder;
-use crate::clock::Chain;
 use crate::engine::{FixedWorld, Machine, WithSetup};
 use crate::processor::Processor;
 use crate::setup::{Back, Setup, table};
@@ -65,7 +64,7 @@ pub struct Vectors<'a> {
     pub folder: &'a Path,
 }
 
-/// The files that were written, and how their rows were chosen.
+/// The files that were written.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Files in the order of the data flow, memories last.
@@ -150,12 +149,10 @@ impl<'a> Files<'a> {
         let world = &setup.world;
         let mut scan = Scan::begin(self, setup)?;
         let mut benches = Benches::begin(self, setup)?;
-        let mut timing = Timing::begin(self, Chain::new(setup))?;
+        let mut timing = Timing::begin(self, setup)?;
         let mut processor = Processor::new(setup);
         for (number, columns) in &self.vectors.selection.lines {
-            while processor.next_line() < *number {
-                processor.skip_line();
-            }
+            processor.skip_to(*number);
             let mut line = Line::new(world, columns.list());
             processor.begin(&mut line);
             setup.projector.run(&mut line);

@@ -116,9 +116,7 @@ impl Measure<'_> {
         let mut line = processor.wires();
         let mut totals = vec![Operations::default(); processor.chain().len()];
         for &number in &self.operations.lines {
-            while processor.next_line() < number {
-                processor.skip_line();
-            }
+            processor.skip_to(number);
             processor.begin(&mut line);
             for (unit, total) in processor.chain().iter().zip(&mut totals) {
                 *total += counted(|| unit.run(&mut line)).1;
@@ -186,7 +184,7 @@ impl Measure<'_> {
             cycles_per_pixel: cycles as f64 / frame_pixels,
             additions: (additions_per_pixel * frame_pixels).round() as u64,
             additions_per_pixel,
-            modelled_fps: self.scene.machine.clock_mhz * 1e6 / cycles as f64,
+            modelled_fps: self.scene.machine.frames_per_second(cycles),
             limit: clock.limit(),
             units,
         }

@@ -365,7 +365,7 @@ pub struct Outer<T> {
 
 /// Indices of the cell that a place lies in.
 #[inline(always)]
-fn cell<W: World>(x: W::Ground, z: W::Ground, site: Site) -> [i32; 2] {
+pub fn cell<W: World>(x: W::Ground, z: W::Ground, site: Site) -> [i32; 2] {
     [x.cell(site.at(Register::GroundX)), z.cell(site.at(Register::GroundZ))]
 }
 

@@ -58,13 +58,15 @@ pub struct Projector<W: World> {
 impl<W: World> Projector<W> {
     /// The accumulators at line 0.
     pub fn first_line(&self) -> LineStart<W> {
-        let start = |c: Option<Linear<W::View>>| c.map_or(self.x.start, |c| c.start);
-        LineStart {
-            x: self.x.start,
-            y: start(self.y),
-            z: self.z.start,
-            denominator: start(self.denominator),
-        }
+        self.line_start(|c| c.start)
+    }
+
+    /// The accumulators where `at` says; one that is absent, which nothing reads, is as x.
+    #[inline]
+    pub fn line_start(&self, at: impl Fn(&Linear<W::View>) -> W::View) -> LineStart<W> {
+        let x = at(&self.x);
+        let of = |c: &Option<Linear<W::View>>| c.as_ref().map_or(x, &at);
+        LineStart { x, y: of(&self.y), z: at(&self.z), denominator: of(&self.denominator) }
     }
 
     /// One line on: one addition per accumulator.

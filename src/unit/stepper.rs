@@ -28,7 +28,7 @@ use super::pyramid::Pyramid;
 use super::surface_unit::SurfaceUnit;
 use super::{Cycles, Description, Line, Reads, Timing, Unit};
 use crate::frame::Hit;
-use crate::word::{Cell, Interpolating, Register, Rescale, Site, Word, World};
+use crate::word::{Interpolating, Register, Rescale, Site, Word, World};
 
 /// What the stepper is.
 pub const DESCRIPTION: Description = Description {
@@ -161,7 +161,7 @@ impl<W: World> Place<W> {
     /// Indices of the cell that it lies in.
     #[inline(always)]
     pub fn cell(self, site: Site) -> [i32; 2] {
-        [self.x.cell(site.at(Register::GroundX)), self.z.cell(site.at(Register::GroundZ))]
+        interpolator::cell::<W>(self.x, self.z, site)
     }
 
     /// Whether it is under the surface, where that exists: a hit is strictly below.

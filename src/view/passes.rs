@@ -164,6 +164,7 @@ fn frame_rate(machine: &Machine<'_>, exact: Option<u64>) -> Result<FrameRate, Se
             (machine.cost(&sample, &none)?.cycles, sample.lines.len() as u32)
         }
     };
-    let clock_mhz = scene.machine.clock_mhz;
-    Ok(FrameRate { fps: clock_mhz * 1e6 / cycles.max(1) as f64, clock_mhz, counted, lines })
+    let hardware = &scene.machine;
+    let fps = hardware.frames_per_second(cycles);
+    Ok(FrameRate { fps, clock_mhz: hardware.clock_mhz, counted, lines })
 }

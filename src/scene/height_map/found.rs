@@ -3,6 +3,7 @@
 use super::error::MapError;
 use super::georeference::Georeference;
 use super::map::HeightMap;
+use crate::scene::value::Words;
 
 /// How the samples of a file stand for heights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,11 +27,7 @@ impl Encoding {
 
     /// Name in scene files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Stored => "stored",
-            Self::TerrainRgb => "terrain-rgb",
-            Self::Terrarium => "terrarium",
-        }
+        self.word()
     }
 }
 

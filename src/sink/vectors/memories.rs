@@ -25,7 +25,7 @@ fn header(stem: &str, holds: &'static str, address: &str, columns: Vec<Heading>)
     }
 }
 
-/// Writes a memory whose words are taken one after the other, `width` of them a row.
+/// Writes memories, a file each.
 struct Memories<'a, W: World> {
     world: &'a W,
     folder: &'a NewFolder,

@@ -4,10 +4,11 @@ use super::Files;
 use super::text::{Header, Heading, Notation, Sheet, Way, Written};
 use super::wires::place;
 use crate::clock::{Chain, Clock, Stage};
+use crate::setup::Setup;
 use crate::sink::SinkError;
 use crate::unit;
 use crate::unit::{Cycles, Line};
-use crate::word::World;
+use crate::word::{Complete, World};
 
 /// Cycles of a frame.
 const CYCLE: Notation = Notation::unsigned(48);
@@ -20,8 +21,8 @@ pub struct Timing<'a> {
 
 impl<'a> Timing<'a> {
     /// Begins the file; the clock starts with its first row.
-    pub fn begin(files: &Files<'a>, chain: Chain) -> Result<Self, SinkError> {
-        let memory_latency = files.vectors.machine.scene().machine.memory_latency;
+    pub fn begin<W: Complete>(files: &Files<'a>, setup: &Setup<W>) -> Result<Self, SinkError> {
+        let (chain, memory_latency) = (Chain::new(setup), setup.memory_latency);
         let mut lines = vec![
             "page docs/cycles.md".into(),
             "equation 28".into(),

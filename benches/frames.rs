@@ -35,8 +35,8 @@ fn pyramid(criterion: &mut Criterion) {
     const SIDE: usize = 4096;
     // The embedded map over and over, so that maxima vary as on real ground.
     let (scene, plan) = support::planned("overview", 64, 64);
-    let memory = Memory::new(&Narrow, &scene, &plan).expect("the scene fits");
-    let tile = memory.expect("overview has a map").heights;
+    let memories = Memory::of_surfaces(&Narrow, &scene, &plan).expect("the scene fits");
+    let tile = memories[0].as_ref().expect("overview has a map").heights.clone();
     let nodes: Vec<Height32> =
         (0..SIDE * SIDE).map(|at| tile.at(at % SIDE % 344, at / SIDE % 344)).collect();
     assert!(nodes.iter().any(|node| Some(*node) != Height32::load(0.0, ())));

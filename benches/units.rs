@@ -32,7 +32,7 @@ fn units<W: Complete>(criterion: &mut Criterion, name: &str, world: W, scene: &S
     for unit in setup.chain() {
         group.bench_function(unit.description().name, |b| b.iter(|| unit.run(&mut line)));
     }
-    if let Some(divider) = &setup.divider {
+    if let Some(divider) = &setup.surfaces[0].divider {
         group.bench_function("divider direct", |b| {
             b.iter(|| divider.run_by(Method::Direct, &mut line));
         });
@@ -44,7 +44,7 @@ fn worlds(criterion: &mut Criterion) {
     for name in ["overview", "plane"] {
         let (scene, plan) = support::planned(name, COLUMNS, COLUMNS);
         let sweep =
-            Formats::stock(plan.words()).sweep(scene.seed).expect("the stock formats are formats");
+            Formats::stock(plan.words).sweep(scene.seed).expect("the stock formats are formats");
         units(criterion, &format!("{name}/narrow"), Narrow, &scene, &plan);
         units(criterion, &format!("{name}/wide"), Wide, &scene, &plan);
         units(criterion, &format!("{name}/sweep"), sweep, &scene, &plan);
@@ -58,11 +58,12 @@ fn direct_entry(criterion: &mut Criterion) {
     assert!(matches!(FixedWorld::of(&scene, &plan), Ok(FixedWorld::Narrow(_))));
     let setup = Memories::default().set_up(Narrow, &scene, &plan).expect("the scene fits");
     let mut line = Processor::new(&setup).wires();
-    let start = enter::line_start(&setup.projector, LINE);
+    let projector = &setup.surfaces[0].projector;
+    let start = enter::line_start(projector, LINE);
     let mut group = criterion.benchmark_group("units/overview/narrow");
     group.throughput(Throughput::Elements(COLUMNS.into()));
     group.bench_function("projector, direct entry", |b| {
-        b.iter(|| enter::fill(&setup.projector, &start, &mut line));
+        b.iter(|| enter::fill(projector, &start, &mut line));
     });
     group.finish();
 }

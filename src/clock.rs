@@ -44,6 +44,8 @@ pub struct Occupancy {
 pub struct Chain {
     /// Stages in the order of the data flow; the last one is the frame.
     pub stages: Vec<Stage>,
+    /// Stage of each unit of the set-up.
+    pub of_units: Vec<usize>,
 }
 
 impl Chain {
@@ -53,10 +55,15 @@ impl Chain {
             name: unit.description().stage,
             timing: unit.timing(setup.memory_latency),
         };
-        let mut stages: Vec<Stage> = setup.chain().into_iter().map(stage).collect();
-        stages.dedup();
+        let (mut stages, mut of_units) = (Vec::new(), Vec::new());
+        for unit in setup.chain().into_iter().map(stage) {
+            if stages.last() != Some(&unit) {
+                stages.push(unit);
+            }
+            of_units.push(stages.len() - 1);
+        }
         stages.push(FRAME);
-        Self { stages }
+        Self { stages, of_units }
     }
 
     /// A stage by its name.
@@ -176,6 +183,11 @@ impl Clock {
         for (i, &work) in line.work.iter().enumerate() {
             done(i, self.take(work));
         }
+    }
+
+    /// The stages.
+    pub fn chain(&self) -> &Chain {
+        &self.chain
     }
 
     /// Cycles so far.

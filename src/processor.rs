@@ -12,14 +12,15 @@ use crate::word::Complete;
 pub struct Processor<'a, W: Complete> {
     setup: &'a Setup<W>,
     chain: Vec<&'a dyn Unit<W>>,
-    start: LineStart<W>,
+    start: Vec<LineStart<W>>,
     next: u32,
 }
 
 impl<'a, W: Complete> Processor<'a, W> {
     /// A processor at the first line.
     pub fn new(setup: &'a Setup<W>) -> Self {
-        Self { setup, chain: setup.chain(), start: setup.projector.first_line(), next: 0 }
+        let start = setup.surfaces.iter().map(|units| units.projector.first_line()).collect();
+        Self { setup, chain: setup.chain(), start, next: 0 }
     }
 
     /// Wires for all columns of a line.
@@ -40,10 +41,10 @@ impl<'a, W: Complete> Processor<'a, W> {
         true
     }
 
-    /// Puts the next line on wires, as the raster scan hands it to the projector.
+    /// Puts the next line on wires, as the raster scan hands it to the projectors.
     pub fn begin(&self, line: &mut Line<W>) {
         line.number = self.next;
-        line.start = self.start;
+        line.start.clone_from(&self.start);
     }
 
     /// The units, in their order.
@@ -53,7 +54,9 @@ impl<'a, W: Complete> Processor<'a, W> {
 
     /// Moves on to the next line without drawing this one: the line accumulators alone.
     pub fn skip_line(&mut self) {
-        self.setup.projector.next_line(&mut self.start);
+        for (units, start) in self.setup.surfaces.iter().zip(&mut self.start) {
+            units.projector.next_line(start);
+        }
         self.next += 1;
     }
 

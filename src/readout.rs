@@ -26,7 +26,7 @@ impl<'a> Reader<'a> {
         if !matches!(line.hit[i], Hit::Surface | Hit::Side) {
             return None;
         }
-        let (point, normal) = match &self.plan.surface {
+        let (point, normal) = match &self.plan.surfaces[line.owner[i] as usize] {
             SurfacePlan::Terrain(walk) => {
                 let (x, z) = (line.ground_x[i].value(), line.ground_z[i].value());
                 let height = walk.scale.to_scene(line.surface[i].value());

@@ -153,13 +153,15 @@ fn out_of_range_is_none_exactly_beyond_the_ends() {
 /// Runs the divider of a scene on every line, by the array and directly, and compares all wires.
 fn both_ways_agree<W: Complete>(world: W, scene: &Scene) -> usize {
     let (_, setup) = scenes::machine(world, scene, false);
-    let divider = setup.divider.as_ref().expect("a divider");
+    let units = &setup.surfaces[0];
+    let divider = units.divider.as_ref().expect("a divider");
     let mut line = terraline::unit::Line::new(&world, 0..setup.columns);
-    line.start = setup.projector.first_line();
+    let mut start = units.projector.first_line();
     let mut met = 0;
     for number in 0..setup.lines {
         line.number = number;
-        setup.projector.run(&mut line);
+        line.start = vec![start];
+        units.projector.run(&mut line);
         let mut direct = line.clone();
         divider.run_by(Method::Array, &mut line);
         divider.run_by(Method::Direct, &mut direct);
@@ -172,7 +174,7 @@ fn both_ways_agree<W: Complete>(world: W, scene: &Scene) -> usize {
             );
         }
         met += line.entry.iter().filter(|&&entry| entry == Entry::Met).count();
-        setup.projector.next_line(&mut line.start);
+        units.projector.next_line(&mut start);
     }
     met
 }

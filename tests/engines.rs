@@ -81,7 +81,7 @@ fn fail(what: &str, plan: &Plan, difference: Option<String>) -> Result<(), TestC
     match difference {
         None => Ok(()),
         Some(difference) => {
-            Err(TestCaseError::fail(format!("{what}, {}: {difference}", plan.words().name)))
+            Err(TestCaseError::fail(format!("{what}, {}: {difference}", plan.words.name)))
         }
     }
 }
@@ -93,7 +93,7 @@ fn built_in_scenes_are_drawn_alike() {
             let mut scene = builtin(name, 160, 120);
             scene.machine.words = words;
             let plan = support::plan(&scene);
-            assert_eq!(plan.words() == WordClass::NARROW, words == WordSize::Narrow);
+            assert_eq!(plan.words == WordClass::NARROW, words == WordSize::Narrow);
             let (processor, fast) = both(&scene, &plan).expect("a frame");
             assert_same(name, &processor, &fast);
             assert!(count(&processor, Hit::Surface) > 4000, "{name}: most of the ground is seen");

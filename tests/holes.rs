@@ -217,7 +217,9 @@ fn rules_fill_before_anything_is_drawn() {
     let mut scene = over(flat(|i, j| (i, j) == (5, 5)), 24, 20);
     scene.camera.position = DVec3::new(5.0, 8.0, 5.0);
     scene.camera.attitude = Attitude::Directions { forward: DVec3::NEG_Y, up: DVec3::X };
-    let units = |scene: &Scene| plan(scene).fitted.void_bits;
+    let units = |scene: &Scene| {
+        plan(scene).surfaces[0].terrain().expect("a height map").fitted.void_bits.fitted
+    };
     assert!(units(&scene));
     assert!(count(&same(&scene), Hit::Sky) > 0);
     terrain(&mut scene).map = flat(|_, _| false).into();

@@ -319,6 +319,7 @@ fn the_pruned_machine_fits_what_the_kernel_needs() {
         };
         assert_eq!(form(kernel), expected, "{kernel:?}");
         let plan = Plan::new(&some_scene(kernel, WordSize::Narrow), None, false).expect("a plan");
-        assert_eq!(plan.fitted.kernel_rom, expected != Form::Hat);
+        let terrain = plan.surfaces[0].terrain().expect("a height map");
+        assert_eq!(terrain.fitted.kernel_rom.fitted, expected != Form::Hat);
     }
 }

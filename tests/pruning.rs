@@ -198,14 +198,14 @@ fn planned(scene: &Scene, full: bool) -> Plan {
 }
 
 fn described(scene: &Scene, plan: &Plan) -> Vec<UnitPlan> {
-    struct Describe<'a>(&'a Scene, &'a Plan);
+    struct Describe<'a>(&'a Plan);
     impl InFixedWorld for Describe<'_> {
         type Output = Vec<UnitPlan>;
         fn run<W: Complete>(self, world: W) -> Self::Output {
-            units(self.1, self.0, &world)
+            units(self.0, &world)
         }
     }
-    FixedWorld::of(scene, plan).expect("a world").run(Describe(scene, plan))
+    FixedWorld::of(scene, plan).expect("a world").run(Describe(plan))
 }
 
 fn cost(scene: &Scene, plan: &Plan) -> Cost {

@@ -99,10 +99,7 @@ fn assert_says(error: &SceneError, words: &[&str]) {
 }
 
 fn terrain(scene: &Scene) -> &Terrain {
-    match &scene.surface {
-        Surface::Terrain(terrain) => terrain,
-        Surface::Plane(_) => panic!("a plane"),
-    }
+    scene.terrain().expect("a height map")
 }
 
 fn angles(scene: &Scene) -> Angles {
@@ -115,7 +112,7 @@ fn angles(scene: &Scene) -> Angles {
 #[test]
 fn an_empty_file_is_the_default_scene() {
     let scene = scene("", &[]);
-    assert_eq!(described(&scene), described(&Scene::of(scene.surface.clone())));
+    assert_eq!(described(&scene), described(&Scene::of(scene.surfaces[0].clone())));
     assert_eq!((scene.name.as_str(), scene.screens.len()), ("my", 1));
     let terrain = terrain(&scene);
     assert_eq!((terrain.source.as_str(), terrain.cell), ("builtin:jacksboro", DVec2::ONE));
@@ -168,7 +165,7 @@ fn directions_and_planes() {
     let scene = scene(text, &[]);
     let (forward, up) = (DVec3::new(0.0, -2.0, 0.0), DVec3::new(5.0, 0.0, 0.0));
     assert_eq!(scene.camera.attitude, Attitude::Directions { forward, up });
-    let Surface::Plane(plane) = scene.surface else { panic!("a plane") };
+    let [Surface::Plane(plane)] = &scene.surfaces[..] else { panic!("a plane") };
     assert_eq!((plane.normal, plane.distance, plane.checker), (DVec3::Z, 3.0, 3.0));
 }
 

@@ -6,7 +6,7 @@ use support::described;
 use support::keys::{file_with, legal};
 use terraline::scene::file::{Document, parse};
 use terraline::scene::keys::sections;
-use terraline::scene::{Scene, Surface, builtin, load, write};
+use terraline::scene::{Scene, builtin, load, write};
 
 mod support;
 
@@ -68,9 +68,7 @@ fn formats_and_paths_are_written() {
     assert_same(&scene, &read(&write::toml(&scene, "")));
 
     let mut scene = read("");
-    if let Surface::Terrain(terrain) = &mut scene.surface {
-        terrain.source = "maps/my \"map\".png".into();
-    }
+    scene.terrain_mut().expect("a terrain").source = "maps/my \"map\".png".into();
     let text = write::toml(&scene, "/data/a \"b\" \\ c.png");
     let value: toml::Table = text.parse().unwrap();
     assert_eq!(value["surface"][0]["map"].as_str(), Some("/data/a \"b\" \\ c.png"));
@@ -89,9 +87,7 @@ fn encodings_are_written() {
         assert!(text.contains(&format!("encoding = \"{encoding}\"")), "{text}");
         let again = read(&text);
         assert_same(&scene, &again);
-        let (Surface::Terrain(a), Surface::Terrain(b)) = (&scene.surface, &again.surface) else {
-            panic!("terrain");
-        };
-        assert_eq!(a.map.samples(), b.map.samples());
+        let samples = |scene: &Scene| scene.terrain().expect("a terrain").map.samples().to_vec();
+        assert_eq!(samples(&scene), samples(&again));
     }
 }

@@ -79,6 +79,6 @@ pub fn words<W: Complete>(setup: &Setup<W>) -> Vec<(usize, i64)> {
 /// Places by which numerators may be shifted left.
 fn most_shift<W: Complete>(setup: &Setup<W>) -> i64 {
     let width = setup.world.fixed(Register::ViewX).map_or(0, |fixed| fixed.width);
-    let bits = setup.divider.as_ref().map_or(0, |divider| divider.bits[0]);
+    let bits = setup.surfaces[0].divider.as_ref().map_or(0, |divider| divider.bits[0]);
     i64::from(width + bits) - 2
 }

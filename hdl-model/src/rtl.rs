@@ -103,7 +103,13 @@ pub fn model_for<W: Complete>(setup: &Setup<W>) -> Result<String, String> {
     if !matches!(size, "narrow" | "wide") {
         return Err("format: the RTL has stock words only; leave [format] and --format out".into());
     }
-    let mut name = match &setup.back {
+    let [surface] = &setup.surfaces[..] else {
+        return Err("surface: the RTL draws one surface; keep one [[surface]]".into());
+    };
+    if surface.has_idle_units() {
+        return Err("--full: the RTL of a plane has no idle units; leave it out".into());
+    }
+    let mut name = match &surface.back {
         Back::Plane(_) => format!("plane_{size}"),
         Back::Terrain(units) => {
             if units.interpolator.heights.edge() == Edge::Wraps {
@@ -115,9 +121,9 @@ pub fn model_for<W: Complete>(setup: &Setup<W>) -> Result<String, String> {
             format!("terrain_{size}{}", if stretch { "_3x3" } else { "" })
         }
     };
-    if setup.divider.as_ref().is_some_and(|divider| divider.serial) {
+    if surface.divider.as_ref().is_some_and(|divider| divider.serial) {
         // Of height maps, one machine has it.
-        if matches!(setup.back, Back::Terrain(_)) && name != "terrain_narrow" {
+        if surface.back.terrain().is_some() && name != "terrain_narrow" {
             return Err(
                 "machine.ratio: height maps in wide words or with 3x3 nodes have no machine \
                         with a serial divider; use array"
@@ -159,10 +165,8 @@ impl<'a, W: Complete> Rtl<'a, W> {
         let hit_ports =
             six(["hit_read", "hit_column", "hit_row", "hit_data_valid", "hit_data", "hit_void"]);
         let latency = setup.memory_latency;
-        let units = match &setup.back {
-            Back::Terrain(units) => Some(&**units),
-            Back::Plane(_) => None,
-        };
+        // `model_for` has refused several.
+        let units = setup.surfaces[0].back.terrain();
         load(&mut model, setup);
         Ok(Self {
             model,
@@ -288,7 +292,7 @@ fn load<W: Complete>(model: &mut Model, setup: &Setup<W>) {
     for (at, word) in coefficients::words(setup) {
         put(COEFFICIENTS, at, word as u64);
     }
-    if let Back::Terrain(units) = &setup.back {
+    if let Some(units) = setup.surfaces[0].back.terrain() {
         if let Some(rom) = &units.interpolator.rom {
             for (space, table) in [(WEIGHTS, rom.weights()), (SLOPES, rom.slopes())] {
                 for (entry, &word) in table.entries().iter().enumerate() {

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use terraline::setup::{Back, Setup};
+use terraline::setup::Setup;
 use terraline::unit::Wire;
 use terraline::word::{Complete, Register};
 
@@ -23,7 +23,7 @@ const BLANK: u64 = 0x200;
 pub fn gtkw<W: Complete>(trace: &Path, setup: &Setup<W>, rtl: &Rtl<'_, W>) -> String {
     let point = |register| setup.world.fixed(register).map(|fixed| fixed.point);
     let width = setup.world.fixed(Register::ViewX).map_or(0, |fixed| fixed.width);
-    let terrain = matches!(setup.back, Back::Terrain(_));
+    let terrain = setup.surfaces[0].back.terrain().is_some();
     let name = trace.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
     let mut out = Waves(format!("[dumpfile] \"{name}\"\n"));
     out.group("clock, stages that take an item, stages before which one waits");

@@ -113,7 +113,7 @@ fn real_frames<W: Stock>(world: W, seed: u64) {
         // Some planes have positions too fine for the smaller words.
         let Ok(plan) = Plan::new(&scene, None, false) else { continue };
         let setup = Memories::default().set_up(world, &scene, &plan).expect("a set-up");
-        let Back::Plane(checker) = &setup.back else { panic!("a plane") };
+        let Back::Plane(checker) = &setup.surfaces[0].back else { panic!("a plane") };
         load_coefficients(&mut rtl, checker);
         let mut processor = Processor::new(&setup);
         let mut line = processor.wires();

@@ -105,16 +105,17 @@ fn differences(change: impl Fn(&mut Setup<Narrow>)) -> (u64, String) {
 fn the_smallest_difference_is_found() {
     assert_eq!(differences(|_| {}), (0, String::new()));
     let (count, first) = differences(|setup| {
-        setup.projector.x.start = Lane::of_int(setup.projector.x.start.int() + 1);
+        let start = &mut setup.surfaces[0].projector.x.start;
+        *start = Lane::of_int(start.int() + 1);
     });
     assert!(count >= 24 * 18 && first.contains("line 0, column 0, projector: view_x"), "{first}");
     let (count, first) = differences(|setup| {
-        let Back::Terrain(units) = &mut setup.back else { panic!("a height map") };
+        let Back::Terrain(units) = &mut setup.surfaces[0].back else { panic!("a height map") };
         units.stepper.top = Lane::of_int(units.stepper.top.int() + (1 << 10));
     });
     assert!(count > 0 && first.contains("stepper"), "{first}");
     let (count, first) = differences(|setup| {
-        let Back::Terrain(units) = &mut setup.back else { panic!("a height map") };
+        let Back::Terrain(units) = &mut setup.surfaces[0].back else { panic!("a height map") };
         let light = units.shader.light.as_mut().expect("light");
         light.ambient = Lane::of_int(light.ambient.int() + 4096);
     });

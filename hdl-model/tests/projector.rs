@@ -46,6 +46,7 @@ fn compare<W: World<View: Lane>>(
             }
         };
         let unit: Projector<W> = Projector {
+            surface: 0,
             x: linear("view_x"),
             y: Some(linear("view_y")),
             z: linear("view_z"),
@@ -53,14 +54,15 @@ fn compare<W: World<View: Lane>>(
         };
         let mut expected = Vec::new();
         let mut line = Line::new(&world, 0..columns);
-        line.start = unit.first_line();
+        let mut first = unit.first_line();
         for _ in 0..lines {
+            line.start = vec![first];
             unit.run(&mut line);
             for i in 0..columns as usize {
                 let wires = [line.view_x[i], line.view_y[i], line.view_z[i], line.denominator[i]];
                 expected.push(wires.map(&bits));
             }
-            unit.next_line(&mut line.start);
+            unit.next_line(&mut first);
         }
         let taker = Taker::Busy { seed: frame, of_256: (frame % 3 * 100) as u8 };
         rtl.set(reset, 1);

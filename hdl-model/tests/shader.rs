@@ -17,7 +17,6 @@ use terraline::frame::Hit;
 use terraline::plan::Plan;
 use terraline::processor::Processor;
 use terraline::scene::load;
-use terraline::setup::Back;
 use terraline::unit::Line;
 use terraline::unit::light::Light;
 use terraline::unit::mixer::Mixer;
@@ -155,7 +154,7 @@ fn real_frames<W: Stock>(world: W, seed: u64) {
             scene.camera.position.y += 120.0;
             let plan = Plan::new(&scene, None, false).expect("a plan");
             let setup = Memories::default().set_up(world, &scene, &plan).expect("a set-up");
-            let Back::Terrain(units) = &setup.back else { panic!("{name} is a height map") };
+            let units = setup.surfaces[0].back.terrain().expect("a height map");
             load_coefficients(&mut rtl, &units.shader);
             let mut processor = Processor::new(&setup);
             let mut line = processor.wires();

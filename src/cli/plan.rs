@@ -51,20 +51,18 @@ impl PlanCommand {
     pub fn run(&self) -> Result<(), Stop> {
         let planned = self.scene.load()?;
         let plan = &planned.plan;
-        let walk = match &plan.surface {
-            SurfacePlan::Terrain(walk) => Some(WalkRange {
-                last_index: walk.last,
-                reach_cells: walk.reach,
-                extreme_cells: walk.extreme,
-                height_unit: walk.scale.unit,
-                datum: walk.scale.datum,
-                from_eye: walk.from_eye,
-            }),
-            SurfacePlan::Plane(_) => None,
-        };
+        let walk = plan.surfaces.iter().find_map(SurfacePlan::terrain);
+        let walk = walk.map(|walk| WalkRange {
+            last_index: walk.last,
+            reach_cells: walk.reach,
+            extreme_cells: walk.extreme,
+            height_unit: walk.scale.unit,
+            datum: walk.scale.datum,
+            from_eye: walk.from_eye,
+        });
         let planning = Planning {
             world: planned.world.name(),
-            words: plan.words().name,
+            words: plan.words.name,
             words_why: plan.words_why.clone(),
             not_proved: plan.not_proved.clone(),
             screen: plan.screen.name.clone(),

@@ -180,6 +180,6 @@ pub struct Units<'a> {
 impl InFixedWorld for Units<'_> {
     type Output = Vec<UnitPlan>;
     fn run<W: Complete>(self, world: W) -> Self::Output {
-        units(&self.planned.plan, &self.planned.scene, &world)
+        units(&self.planned.plan, &world)
     }
 }

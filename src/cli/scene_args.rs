@@ -131,12 +131,8 @@ impl SceneArgs {
     /// Files that a planned scene was read from.
     pub fn inputs(&self, planned: &Planned) -> Vec<PathBuf> {
         let Some(file) = self.scene.as_deref().map(PathBuf::from) else { return Vec::new() };
-        let mut inputs = Vec::new();
-        if let Surface::Terrain(terrain) = &planned.scene.surface {
-            inputs.push(self.map_file(terrain));
-        }
-        inputs.push(file);
-        inputs
+        let maps = planned.scene.surfaces.iter().filter_map(Surface::terrain);
+        maps.map(|terrain| self.map_file(terrain)).chain([file]).collect()
     }
 
     /// Path of a terrain's map, which stands in the scene relative to the scene's folder.

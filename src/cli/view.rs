@@ -56,7 +56,7 @@ mod open {
     use super::super::scene_args::Planned;
     use super::{Stop, View};
     use crate::engine::Engine;
-    use crate::scene::{Scene, Surface};
+    use crate::scene::Scene;
     use crate::sink::png;
     use crate::view::layout::Layout;
     use crate::view::order::MAX_PIXELS;
@@ -143,7 +143,7 @@ mod open {
 
         /// The scene's height map as a path that holds from any folder; `None` if it is no text.
         fn map(&self, scene: &Scene) -> Option<String> {
-            let Surface::Terrain(terrain) = &scene.surface else { return Some(String::new()) };
+            let Some(terrain) = scene.terrain() else { return Some(String::new()) };
             let file = self.scene.map_file(terrain);
             std::fs::canonicalize(&file).unwrap_or(file).to_str().map(str::to_owned)
         }

@@ -133,7 +133,7 @@ impl<'a> Machine<'a> {
         self.oracle.get_or_init(|| {
             let start = Instant::now();
             let mut oracle = Oracle::new(self.scene, &self.plan.screen);
-            if let SurfacePlan::Terrain(walk) = &self.plan.surface {
+            if let Some(walk) = self.plan.surfaces.iter().find_map(SurfacePlan::terrain) {
                 oracle = oracle.with_reach_cells(walk.extreme);
             }
             (oracle, SetUpTime { coefficients: start.elapsed(), ..SetUpTime::default() })

@@ -6,12 +6,12 @@ use std::time::{Duration, Instant};
 
 use crate::fast;
 use crate::fast::enter::Enterable;
-use crate::plan::{Plan, SurfacePlan};
+use crate::plan::{Plan, SurfacePlan, TerrainPlan};
 use crate::scene::Scene;
 use crate::setup::{Memory, Setup, SetupError};
 use crate::word::{Complete, World};
 
-/// Memories of one surface that were loaded before, the latest used last. They are kept by what
+/// Memories of one scene's surfaces that were loaded before, the latest used last. They are kept by what
 /// the machine's choice may change (world, kernel, plan), not by the map: one keeper serves one
 /// scene and what becomes of it.
 #[derive(Clone, Default)]
@@ -32,11 +32,11 @@ pub struct SetUpTime {
     pub coefficients: Duration,
 }
 
-/// What is loaded once per map in a world.
+/// What is loaded once per map in a world, for each surface.
 struct Loaded<W: World> {
-    memory: Option<Memory<W>>,
-    /// The fast engine's own copy, made when it first draws, and how long that took.
-    map: OnceLock<(Option<fast::Map<W>>, Duration)>,
+    memories: Vec<Option<Memory<W>>>,
+    /// The fast engine's own copies, made when it first draws, and how long that took.
+    maps: OnceLock<(Vec<Option<fast::Map<W>>>, Duration)>,
 }
 
 /// A set-up in a world, with what was loaded for it.
@@ -48,7 +48,7 @@ pub struct Ready<W: World> {
 }
 
 impl<W: World> Ready<W> {
-    /// How long it took, without the fast engine's map.
+    /// How long it took, without the fast engine's maps.
     #[must_use]
     pub fn time(&self) -> SetUpTime {
         self.time
@@ -56,24 +56,23 @@ impl<W: World> Ready<W> {
 }
 
 impl<W: Enterable> Ready<W> {
-    /// The map as the fast engine reads it, made now if it has not drawn before; `None` where it
-    /// draws ray by ray.
-    pub fn map(&self, scene: &Scene, plan: &Plan) -> Option<&fast::Map<W>> {
-        self.timed_map(scene, plan).0.as_ref()
+    /// The maps of the surfaces as the fast engine reads them, made now if it has not drawn before;
+    /// `None` for a surface that it draws ray by ray.
+    pub fn maps(&self, scene: &Scene, plan: &Plan) -> &[Option<fast::Map<W>>] {
+        &self.timed_maps(scene, plan).0
     }
 
     /// How long the set-up took for the fast engine.
     pub(super) fn fast_time(&self, scene: &Scene, plan: &Plan) -> SetUpTime {
-        let map = self.timed_map(scene, plan).1;
-        SetUpTime { memories: self.time.memories + map, ..self.time }
+        let maps = self.timed_maps(scene, plan).1;
+        SetUpTime { memories: self.time.memories + maps, ..self.time }
     }
 
-    fn timed_map(&self, scene: &Scene, plan: &Plan) -> &(Option<fast::Map<W>>, Duration) {
-        self.loaded.map.get_or_init(|| {
+    fn timed_maps(&self, scene: &Scene, plan: &Plan) -> &(Vec<Option<fast::Map<W>>>, Duration) {
+        self.loaded.maps.get_or_init(|| {
             let start = Instant::now();
-            let memory = self.loaded.memory.as_ref();
-            let map = fast::map(&self.setup.world, scene, plan, memory);
-            (map, start.elapsed())
+            let maps = fast::maps(&self.setup.world, scene, plan, &self.loaded.memories);
+            (maps, start.elapsed())
         })
     }
 }
@@ -105,7 +104,7 @@ impl Memories {
         let start = Instant::now();
         let loaded = self.get(world, scene, plan)?;
         let memories = start.elapsed();
-        let setup = Setup::new(world, scene, plan, loaded.memory.as_ref())?;
+        let setup = Setup::new(world, scene, plan, &loaded.memories)?;
         let time = SetUpTime { memories, coefficients: start.elapsed() - memories };
         Ok(Ready { setup, loaded, time })
     }
@@ -116,18 +115,15 @@ impl Memories {
         scene: &Scene,
         plan: &Plan,
     ) -> Result<Arc<Loaded<W>>, SetupError> {
-        let scale = match &plan.surface {
-            SurfacePlan::Terrain(walk) => Some(walk.scale),
-            SurfacePlan::Plane(_) => None,
+        let of_map = |walk: &TerrainPlan| {
+            let TerrainPlan { scale, fitted, .. } = walk;
+            let [pyramid, rom, voids] =
+                [&fitted.pyramid, &fitted.kernel_rom, &fitted.void_bits].map(|fit| fit.fitted);
+            format!(" {scale:?} {pyramid} {rom} {voids}")
         };
-        let key = format!(
-            "{world:?} {:?} {:?} {} {} {} {scale:?}",
-            scene.kernel,
-            plan.words(),
-            plan.full,
-            plan.fitted.pyramid,
-            plan.fitted.kernel_rom
-        );
+        let maps: String =
+            plan.surfaces.iter().filter_map(SurfacePlan::terrain).map(of_map).collect();
+        let key = format!("{world:?} {:?} {:?} {}{maps}", scene.kernel, plan.words, plan.full);
         let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         {
             let mut kept = kept();
@@ -140,8 +136,8 @@ impl Memories {
                 }
             }
         }
-        let memory = Memory::new(&world, scene, plan)?;
-        let loaded = Arc::new(Loaded { memory, map: OnceLock::new() });
+        let memories = Memory::of_surfaces(&world, scene, plan)?;
+        let loaded = Arc::new(Loaded { memories, maps: OnceLock::new() });
         let mut kept = kept();
         if kept.len() >= KEPT {
             kept.remove(0);

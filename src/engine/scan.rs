@@ -142,8 +142,8 @@ impl Machine<'_> {
 
     /// What the fast engine draws from; its map is made now if it has not drawn before.
     fn source<'a, W: Enterable>(&'a self, ready: &'a Ready<W>) -> fast::Source<'a, W> {
-        let map = ready.map(self.scene, self.plan);
-        fast::Source { setup: &ready.setup, map, plan: self.plan }
+        let maps = ready.maps(self.scene, self.plan);
+        fast::Source { setup: &ready.setup, maps, plan: self.plan }
     }
 
     fn fast<'a, W: Enterable>(

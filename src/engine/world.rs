@@ -34,7 +34,7 @@ impl FixedWorld {
     pub fn of(scene: &Scene, plan: &Plan) -> Result<Self, SetupError> {
         Ok(if !scene.formats.is_empty() {
             Self::Sweep(formats::sweep(scene, plan)?)
-        } else if plan.words() == WordClass::NARROW {
+        } else if plan.words == WordClass::NARROW {
             Self::Narrow(Narrow)
         } else {
             Self::Wide(Wide)

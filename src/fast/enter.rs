@@ -27,7 +27,7 @@ pub trait Enterable: Complete + World<View: Enter> {
     fn draw_group(
         level: Level,
         setup: &Setup<Self>,
-        map: Option<&Map<Self>>,
+        maps: &[Option<Map<Self>>],
         first: u32,
         lines: &mut [Line<Self>],
     );
@@ -41,11 +41,11 @@ macro_rules! packed {
             fn draw_group(
                 level: Level,
                 setup: &Setup<Self>,
-                map: Option<&Map<Self>>,
+                maps: &[Option<Map<Self>>],
                 first: u32,
                 lines: &mut [Line<Self>],
             ) {
-                on_vectors(level, setup, map, first, lines);
+                on_vectors(level, setup, maps, first, lines);
             }
         })*
     };
@@ -59,7 +59,7 @@ impl Enterable for Sweep {
     fn draw_group(
         _: Level,
         setup: &Setup<Self>,
-        _: Option<&Map<Self>>,
+        _: &[Option<Map<Self>>],
         first: u32,
         lines: &mut [Line<Self>],
     ) {

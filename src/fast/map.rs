@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::cells::Cells;
 use super::maxima::Maxima;
-use crate::plan::{Plan, SurfacePlan};
-use crate::scene::{Kernel, Scene};
+use crate::plan::TerrainPlan;
+use crate::scene::Kernel;
 use crate::setup::{Memory, kernel};
 use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
@@ -80,13 +80,10 @@ impl MaskedTable {
 }
 
 impl<W: Open> Map<W> {
-    /// The copy of a scene's map. `None` where rays do not walk by packets: in machines that do not
+    /// The copy of a height map. `None` where rays do not walk by packets: in machines that do not
     /// skip, where blocks would meet at a seam, over holes that are no cells of the map, and where
     /// products of heights with weights need more than 64 bits.
-    pub fn new(world: &W, scene: &Scene, plan: &Plan, memory: Option<&Memory<W>>) -> Option<Self> {
-        let (SurfacePlan::Terrain(walk), Some(memory)) = (&plan.surface, memory) else {
-            return None;
-        };
+    pub fn new(world: &W, kernel: &Kernel, walk: &TerrainPlan, memory: &Memory<W>) -> Option<Self> {
         let (heights, form) = (&*memory.heights, memory.form);
         let point = world.fixed(Register::Node)?.point;
         let cells = match heights.edge() {
@@ -95,7 +92,7 @@ impl<W: Open> Map<W> {
             Edge::Ends => !heights.has_voids() || form != Form::Stretch,
         };
         let top = bits(walk.top, point);
-        if !(plan.fitted.pyramid && cells && top + (point as i32) < 62) {
+        if !(walk.fitted.pyramid.fitted && cells && top + (point as i32) < 62) {
             return None;
         }
         let weights = |rom: &KernelRom<W::Weight>| {
@@ -113,7 +110,7 @@ impl<W: Open> Map<W> {
             maxima: maxima(heights, top, form, point),
             cells: Cells::new(heights),
             weights,
-            bend: bend(&scene.kernel, form),
+            bend: bend(kernel, form),
         })
     }
 }

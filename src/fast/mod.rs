@@ -34,12 +34,12 @@ use fearless_simd::{Level, Simd as _, dispatch};
 use rayon::prelude::*;
 
 use crate::frame::{Buffers, Frame, Giver, Hit};
-use crate::plan::Plan;
+use crate::plan::{Plan, SurfacePlan};
 use crate::readout::Reader;
 use crate::scene::Scene;
-use crate::setup::{Back, Memory, Setup};
+use crate::setup::{Back, Memory, Setup, SurfaceUnits};
 use crate::unit::divider::Method;
-use crate::unit::{Line, Unit as _};
+use crate::unit::{Line, Unit};
 use crate::word::World;
 use enter::Enterable;
 pub use map::Map;
@@ -71,17 +71,22 @@ pub fn levels() -> Vec<Level> {
 fn on_vectors<W: Packed + Enterable>(
     level: Level,
     setup: &Setup<W>,
-    map: Option<&Map<W>>,
+    maps: &[Option<Map<W>>],
     first: u32,
     lines: &mut [Line<W>],
 ) {
     dispatch!(level, simd => simd.vectorize(
         #[inline(always)]
         || {
-            project(setup, first, lines);
-            match &setup.back {
-                Back::Terrain(units) => march::draw(simd, units, map, lines),
-                Back::Plane(checker) => lines.iter_mut().for_each(|line| checker.run(line)),
+            for (units, map) in setup.surfaces.iter().zip(maps) {
+                project(units, first, lines);
+                match &units.back {
+                    Back::Terrain(units) => march::draw(simd, units, map.as_ref(), lines),
+                    Back::Plane(checker) => lines.iter_mut().for_each(|line| checker.run(line)),
+                }
+                if let Some(depth) = units.depth {
+                    lines.iter_mut().for_each(|line| depth.run(line));
+                }
             }
         }
     ));
@@ -89,33 +94,40 @@ fn on_vectors<W: Packed + Enterable>(
 
 /// Draws a few neighbouring lines ray by ray.
 fn singly<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
-    project(setup, first, lines);
-    let units = setup.back.units(false);
-    lines.iter_mut().for_each(|line| units.iter().for_each(|unit| unit.run(line)));
+    for units in &setup.surfaces {
+        project(units, first, lines);
+        let mut behind = units.back.units();
+        behind.extend(units.depth.iter().map(|depth| depth as &dyn Unit<W>));
+        lines.iter_mut().for_each(|line| behind.iter().for_each(|unit| unit.run(line)));
+    }
 }
 
-/// Runs projector and divider.
+/// Runs projector and divider of a surface.
 #[inline(always)]
-fn project<W: Enterable>(setup: &Setup<W>, first: u32, lines: &mut [Line<W>]) {
+fn project<W: Enterable>(units: &SurfaceUnits<W>, first: u32, lines: &mut [Line<W>]) {
     for (line, number) in lines.iter_mut().zip(first..) {
         line.number = number;
-        let start = enter::line_start(&setup.projector, number);
-        enter::fill(&setup.projector, &start, line);
-        if let Some(divider) = &setup.divider {
+        let start = enter::line_start(&units.projector, number);
+        enter::fill(&units.projector, &start, line);
+        if let Some(divider) = &units.divider {
             divider.run_by(Method::Direct, line);
         }
     }
 }
 
-/// The copy of a map that packets read; `None` where rays are drawn one by one: in worlds whose words
-/// are no plain integers, and where [`Map::new`] gives none.
-pub fn map<W: Enterable>(
+/// The copies of the surfaces' maps that packets read; `None` for a surface whose rays are drawn one
+/// by one: in worlds whose words are no plain integers, and where [`Map::new`] gives none.
+pub fn maps<W: Enterable>(
     world: &W,
     scene: &Scene,
     plan: &Plan,
-    memory: Option<&Memory<W>>,
-) -> Option<Map<W>> {
-    W::PACKED.then(|| Map::new(world, scene, plan, memory)).flatten()
+    memories: &[Option<Memory<W>>],
+) -> Vec<Option<Map<W>>> {
+    let map = |(surface, memory): (&SurfacePlan, &Option<Memory<W>>)| {
+        let (walk, memory) = (surface.terrain()?, memory.as_ref()?);
+        W::PACKED.then(|| Map::new(world, &scene.kernel, walk, memory)).flatten()
+    };
+    plan.surfaces.iter().zip(memories).map(map).collect()
 }
 
 /// What the fast engine draws from.
@@ -123,8 +135,8 @@ pub fn map<W: Enterable>(
 pub struct Source<'a, W: World> {
     /// The machine's coefficients and memories.
     pub setup: &'a Setup<W>,
-    /// The map as packets read it; rays are drawn one by one without.
-    pub map: Option<&'a Map<W>>,
+    /// The map of each surface as packets read it; rays are drawn one by one without.
+    pub maps: &'a [Option<Map<W>>],
     /// The plan of both.
     pub plan: &'a Plan,
 }
@@ -155,7 +167,7 @@ fn draw_at<W: Enterable>(
     look: &(dyn Fn(&Line<W>) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Option<Frame> {
-    let Source { setup, map, plan } = source;
+    let Source { setup, maps, plan } = source;
     let (columns, count) = (setup.columns as usize, lines.len());
     let mut color = vec![[0; 3]; columns * count];
     let mut hit = vec![Hit::Sky; columns * count];
@@ -179,7 +191,7 @@ fn draw_at<W: Enterable>(
                     }
                     let wires = &mut wires[..color.len() / columns];
                     let first = lines.start + (at * band + group * GROUP) as u32;
-                    W::draw_group(level, setup, map, first, wires);
+                    W::draw_group(level, setup, maps, first, wires);
                     let rows = color.chunks_exact_mut(columns).zip(hit.chunks_exact_mut(columns));
                     for (line, (color, hit)) in wires.iter().zip(rows) {
                         look(line);

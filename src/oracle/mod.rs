@@ -15,14 +15,18 @@ pub mod outcome;
 pub mod patch;
 pub mod plane;
 pub mod shade;
+mod terrain;
 #[cfg(test)]
 mod tests;
 pub mod traversal;
 
+use std::fmt::Debug;
+use std::sync::Arc;
+
 use glam::{DMat3, DVec3};
 
 use crate::frame::Hit;
-use crate::scene::{Colors, Light, Plane, Scene, Screen, Surface};
+use crate::scene::{Colors, Kernel, Light, Scene, Screen, Surface};
 use camera::{Ray, View};
 use height_field::HeightField;
 
@@ -35,7 +39,13 @@ pub struct Oracle {
     view: View,
     columns: u32,
     lines: u32,
-    seen: Seen,
+    surfaces: Vec<Arc<dyn Seen>>,
+    look: Look,
+}
+
+/// What the colour of a pixel depends on besides its surface, and how far rays are followed.
+#[derive(Clone, Debug)]
+pub(crate) struct Look {
     light: Light,
     colors: Colors,
     reach_cells: f64,
@@ -43,11 +53,30 @@ pub struct Oracle {
     grain: f64,
 }
 
-/// What the rays meet.
-#[derive(Clone, Debug)]
-enum Seen {
-    Terrain(Box<HeightField>),
-    Plane(Plane),
+/// A surface as rays see it by itself, whatever its kind.
+pub(crate) trait Seen: Debug + Send + Sync {
+    /// What a ray sees of it.
+    fn sight(&self, ray: &Ray, look: &Look) -> Sighting;
+
+    /// How often a ray crosses it strictly between two λ, in ascending order.
+    fn crossings(&self, ray: &Ray, from: f64, to: f64) -> usize;
+
+    /// Whether the point of a ray at another λ is on the sheet that the ray sees.
+    fn same_sheet(&self, ray: &Ray, look: &Look, other: f64) -> bool;
+
+    /// Its height over (x, z), scene units, where it has one.
+    fn height(&self, x: f64, z: f64) -> Option<f64>;
+
+    /// Its unit normal over (x, z), where it has one.
+    fn normal(&self, x: f64, z: f64) -> Option<DVec3>;
+}
+
+/// A surface of a scene.
+fn seen(surface: &Surface, kernel: Kernel) -> Arc<dyn Seen> {
+    match surface {
+        Surface::Terrain(terrain) => Arc::new(HeightField::new(terrain, kernel)),
+        Surface::Plane(plane) => Arc::new(plane.clone()),
+    }
 }
 
 /// What a pixel sees.
@@ -77,16 +106,13 @@ impl Oracle {
             view: View::new(&scene.camera, screen),
             columns: screen.columns,
             lines: screen.lines,
-            seen: match &scene.surface {
-                Surface::Terrain(terrain) => {
-                    Seen::Terrain(Box::new(HeightField::new(terrain, scene.kernel)))
-                }
-                Surface::Plane(plane) => Seen::Plane(plane.clone()),
+            surfaces: scene.surfaces.iter().map(|surface| seen(surface, scene.kernel)).collect(),
+            look: Look {
+                light: scene.light,
+                colors: scene.color.clone(),
+                reach_cells: REACH_CELLS,
+                grain: screen.pitch().max_element() * screen.distance(),
             },
-            light: scene.light,
-            colors: scene.color.clone(),
-            reach_cells: REACH_CELLS,
-            grain: screen.pitch().max_element() * screen.distance(),
         }
     }
 
@@ -94,7 +120,7 @@ impl Oracle {
     /// axis on which the ray moves most; what lies beyond is [`Hit::OutOfRange`].
     #[must_use]
     pub fn with_reach_cells(mut self, reach_cells: f64) -> Self {
-        self.reach_cells = reach_cells;
+        self.look.reach_cells = reach_cells;
         self
     }
 
@@ -122,40 +148,43 @@ impl Oracle {
         self.view.project(point)
     }
 
-    /// Height of the surface over (x, z), scene units; `None` outside a map that ends, in a hole, and
-    /// on an upright plane.
+    /// Height of the surface over (x, z), scene units, of several the highest; `None` outside a map
+    /// that ends, in a hole, and on an upright plane.
     #[must_use]
     pub fn surface_height(&self, x: f64, z: f64) -> Option<f64> {
-        match &self.seen {
-            Seen::Terrain(ground) => {
-                let index = ground.index_at(x, z)?;
-                Some(ground.height_in(index, x, z).y)
-            }
-            Seen::Plane(plane) => plane::plane_height(plane, x, z),
-        }
+        self.surfaces.iter().filter_map(|surface| surface.height(x, z)).reduce(f64::max)
     }
 
-    /// Unit normal `(−∂y/∂x, 1, −∂y/∂z)` over (x, z); `None` outside a map that ends and in a
-    /// hole. A plane has its own normal everywhere.
+    /// Unit normal `(−∂y/∂x, 1, −∂y/∂z)` over (x, z), of several surfaces that of the highest; `None`
+    /// outside a map that ends and in a hole. A plane has its own normal everywhere.
     #[must_use]
     pub fn surface_normal(&self, x: f64, z: f64) -> Option<DVec3> {
-        match &self.seen {
-            Seen::Terrain(ground) => {
-                let index = ground.index_at(x, z)?;
-                Some(ground.normal(ground.height_in(index, x, z)))
-            }
-            Seen::Plane(plane) => Some(plane.normal),
-        }
+        let over = |surface: &Arc<dyn Seen>| {
+            let height = surface.height(x, z).unwrap_or(f64::NEG_INFINITY);
+            Some((height, surface.normal(x, z)?))
+        };
+        let higher = |a: (f64, DVec3), b: (f64, DVec3)| if b.0 > a.0 { b } else { a };
+        self.surfaces.iter().filter_map(over).reduce(higher).map(|(_, normal)| normal)
     }
 
-    /// What is seen at a line and column.
+    /// What is seen at a line and column: the nearest surface, of equally near ones the first.
     #[must_use]
     pub fn pixel(&self, line: f64, column: f64) -> Sighting {
-        let ray = self.view.ray(line, column);
-        match &self.seen {
-            Seen::Terrain(ground) => self.sight_terrain(ground, &ray),
-            Seen::Plane(plane) => self.sight_plane(plane, &ray),
-        }
+        self.nearest(&self.view.ray(line, column)).1
+    }
+
+    /// The surface that a ray sees, by its place in the scene, and the sighting.
+    fn nearest(&self, ray: &Ray) -> (usize, Sighting) {
+        let sights = self.surfaces.iter().map(|surface| surface.sight(ray, &self.look));
+        let nearer = |a: (usize, Sighting), b: (usize, Sighting)| {
+            let tangent = a.1.tangent || b.1.tangent;
+            let (at, seen) = if b.1.is_before(&a.1) { b } else { a };
+            (at, Sighting { tangent, ..seen })
+        };
+        let Some(nearest) = sights.enumerate().reduce(nearer) else {
+            unreachable!("a scene has a surface")
+        };
+        nearest
     }
 
     /// How often the ray of a pixel goes into the ground or out of it strictly between two λ, in
@@ -164,13 +193,7 @@ impl Oracle {
     pub fn crossings(&self, line: f64, column: f64, lambda_from: f64, lambda_to: f64) -> usize {
         let ray = self.view.ray(line, column);
         let (from, to) = (lambda_from.min(lambda_to), lambda_from.max(lambda_to));
-        match &self.seen {
-            Seen::Terrain(ground) => outcome::count_crossings(ground, &ray, from, to),
-            Seen::Plane(plane) => {
-                let lambda = plane::plane_lambda(plane, &ray);
-                usize::from(lambda.is_some_and(|lambda| from < lambda && lambda < to))
-            }
-        }
+        self.surfaces.iter().map(|surface| surface.crossings(&ray, from, to)).sum()
     }
 
     /// Whether the point at `lambda_other` on the ray of a pixel is on the sheet of the surface
@@ -178,68 +201,42 @@ impl Oracle {
     #[must_use]
     pub fn same_sheet(&self, line: f64, column: f64, lambda_other: f64) -> bool {
         let ray = self.view.ray(line, column);
-        match &self.seen {
-            Seen::Terrain(ground) => {
-                outcome::is_same_sheet(ground, &ray, self.reach_cells, lambda_other)
+        let (seen, sighting) = self.nearest(&ray);
+        let (from, to) = (sighting.lambda.min(lambda_other), sighting.lambda.max(lambda_other));
+        self.surfaces.iter().enumerate().all(|(at, surface)| {
+            if at == seen {
+                surface.same_sheet(&ray, &self.look, lambda_other)
+            } else {
+                surface.crossings(&ray, from, to) == 0
             }
-            Seen::Plane(plane) => {
-                plane::plane_lambda(plane, &ray).is_some()
-                    && lambda_other.is_finite()
-                    && lambda_other >= 0.0
-            }
-        }
+        })
     }
+}
 
-    fn sight_terrain(&self, ground: &HeightField, ray: &Ray) -> Sighting {
-        let outcome = outcome::first_entry(ground, ray, self.reach_cells);
-        if outcome.behind.is_none() {
-            return self.miss(outcome.hit, outcome.tangent);
-        }
-        let mut point = ray.at(outcome.lambda);
-        let height = ground.height_in(outcome.patch, point.x, point.z);
-        point.y = height.y;
-        let normal = ground.normal(height);
-        let color = shade::outcome_color(&self.colors, outcome.hit).unwrap_or_else(|| {
-            shade::terrain_color(&self.colors, &self.light, ground.range(), point.y, normal)
-        });
-        Sighting {
-            hit: outcome.hit,
-            lambda: outcome.lambda,
-            point,
-            normal,
-            color,
-            tangent: outcome.tangent,
-        }
-    }
-
-    fn sight_plane(&self, plane: &Plane, ray: &Ray) -> Sighting {
-        let Some(lambda) = plane::plane_lambda(plane, ray) else {
-            return self.miss(Hit::Sky, false);
-        };
-        let point = ray.at(lambda);
-        Sighting {
-            hit: Hit::Surface,
-            lambda,
-            point,
-            normal: plane.normal,
-            color: shade::plane_color(
-                &self.colors,
-                plane,
-                point,
-                shade::plane_contrast(plane, ray, self.grain),
-            ),
-            tangent: false,
-        }
-    }
-
-    fn miss(&self, hit: Hit, tangent: bool) -> Sighting {
-        Sighting {
+impl Sighting {
+    /// Nothing of a surface, and why.
+    fn miss(colors: &Colors, hit: Hit, tangent: bool) -> Self {
+        Self {
             hit,
             lambda: f64::NAN,
             point: DVec3::NAN,
             normal: DVec3::NAN,
-            color: shade::outcome_color(&self.colors, hit).unwrap_or(self.colors.sky),
+            color: shade::outcome_color(colors, hit).unwrap_or(colors.sky),
             tangent,
+        }
+    }
+
+    /// Whether a pixel that may show either shows this one: the nearer surface, else what is out of
+    /// range rather than sky.
+    fn is_before(&self, other: &Self) -> bool {
+        let rank = |hit| match hit {
+            Hit::Surface | Hit::Side => 0,
+            Hit::OutOfRange => 1,
+            Hit::Sky => 2,
+        };
+        match (rank(self.hit), rank(other.hit)) {
+            (0, 0) => self.lambda < other.lambda,
+            (own, its) => own < its,
         }
     }
 }

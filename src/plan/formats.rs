@@ -1,7 +1,7 @@
 //! Register formats of a machine: the stock ones of a word size, overridden by `[format]` and
 //! `--format`.
 
-use super::{Plan, PlanError, SurfacePlan, WordClass};
+use super::{Plan, PlanError, WordClass};
 use crate::scene::{FormatRequest, Registers, Scene};
 use crate::word::sweep::{Sweep, SweepFormat};
 use crate::word::{Class, Fixed, Overflow, Register, Rounding};
@@ -61,12 +61,12 @@ impl Formats<'_> {
 /// # Errors
 /// As [`Formats::sweep`], or if a position does not hold a step.
 pub fn sweep(scene: &Scene, plan: &Plan) -> Result<Sweep, PlanError> {
-    let formats = Formats { words: plan.words(), requests: &scene.formats };
+    let formats = Formats { words: plan.words, requests: &scene.formats };
     let world = formats.sweep(scene.seed)?;
     let least = scene.stepper.fineness + 1;
     for register in [Register::GroundX, Register::GroundZ, Register::RayY] {
         let point = formats.fixed(register).point;
-        if matches!(plan.surface, SurfacePlan::Terrain(_)) && point < least {
+        if plan.surfaces.iter().any(|surface| surface.terrain().is_some()) && point < least {
             return Err(PlanError::Format {
                 name: register.name(),
                 reason: format!(

@@ -2,18 +2,18 @@
 
 use glam::DVec3;
 
+use super::fitted::{Fit, UnitFit};
 use super::formats::Formats;
-use super::geometry::Geometry;
-use super::proof::{Finding, Proof, Refusal, in_pixels};
-use super::{LARGEST_PLACE, PlanError, WordClass};
-use crate::scene::{FormatRequest, Plane, Registers, WordSize};
+use super::geometry::{Geometry, LinearScalar, LinearVector};
+use super::proof::{Proof, Refusal, in_pixels};
+use super::surface::{Planned, Projection};
+use super::words::{LARGEST_PLACE, WordClass};
+use crate::scene::Plane;
 use crate::word::Register;
 
 /// Projection onto a plane.
 #[derive(Clone, Debug)]
 pub struct PlanePlan {
-    /// Word size of its stock registers.
-    pub words: WordClass,
     /// Unit normal of the plane, ground frame.
     pub normal: DVec3,
     /// Side of a square, scene units.
@@ -28,55 +28,16 @@ pub struct PlanePlan {
     pub range: u32,
 }
 
-/// The last bit of a position in pixels of the nearest point: at most this in a word size that was
-/// asked for or is the last choice, and in formats of the scene's own.
+/// The last bit of a position in pixels of the nearest point: at most this.
 const COARSEST: f64 = 0.5;
-/// The same in narrow words that the plan chooses by itself.
+/// The same in words that the plan chooses while there are finer ones.
 const FINE: f64 = 1.0 / 64.0;
 
 impl PlanePlan {
-    /// Chooses the word size and proves it, or says what is not proved of the scene's own formats.
-    ///
-    /// # Errors
-    /// If no word size holds the plane, or the one asked for does not.
-    pub(super) fn new(
-        plane: &Plane,
-        geometry: &Geometry,
-        asked: WordSize,
-        requests: &[(Registers, FormatRequest)],
-    ) -> Result<(Self, Finding), PlanError> {
-        let of = |words| Self::in_words(plane, geometry, words);
-        let stock = |words, coarsest| -> Result<Self, Refusal> {
-            let plan = of(words);
-            plan.proof(geometry, &Formats::stock(words), coarsest).holds().map(|_| plan)
-        };
-        if !requests.is_empty() {
-            let plan = of(WordClass::of_sweep(asked, || stock(WordClass::NARROW, FINE).is_ok()));
-            if plan.places().1 > LARGEST_PLACE {
-                return Err(plan.too_far(Register::GroundX).into());
-            }
-            let formats = Formats { words: plan.words, requests };
-            let finding = plan.proof(geometry, &formats, COARSEST).told(&formats);
-            return Ok((plan, finding));
-        }
-        let wide = || stock(WordClass::WIDE, COARSEST);
-        let (plan, why) = match asked {
-            WordSize::Narrow => {
-                (stock(WordClass::NARROW, COARSEST)?, "asked for, and proved".to_owned())
-            }
-            WordSize::Wide => (wide()?, "asked for".to_owned()),
-            WordSize::Auto => match stock(WordClass::NARROW, FINE) {
-                Ok(plan) => (plan, "positions and pixels fit".to_owned()),
-                Err(refusal) => (wide()?, format!("32 bits are not enough: {}", refusal.reason)),
-            },
-        };
-        Ok((plan, Finding::proved(why)))
-    }
-
-    fn in_words(plane: &Plane, geometry: &Geometry, words: WordClass) -> Self {
+    /// The projection in words of a size, proved or not.
+    pub(super) fn new(plane: &Plane, geometry: &Geometry, words: WordClass) -> Self {
         let axes = plane_axes(plane.normal);
         Self {
-            words,
             normal: plane.normal,
             checker: plane.checker,
             axes,
@@ -100,14 +61,23 @@ impl PlanePlan {
             register,
         }
     }
+}
 
-    fn proof(&self, geometry: &Geometry, formats: &Formats<'_>, coarsest: f64) -> Proof {
+impl Planned for PlanePlan {
+    fn check_counters(&self) -> Result<(), Refusal> {
+        if self.places().1 > LARGEST_PLACE {
+            return Err(self.too_far(Register::GroundX));
+        }
+        Ok(())
+    }
+
+    fn proof(&self, geometry: &Geometry, formats: &Formats<'_>) -> Proof {
         use Register as R;
         let ground = [R::GroundX, R::GroundZ];
         let (shortest, limit) = formats.shortest(&ground);
         let place = self.places().1;
         let mut facts = format!("positions reach {place:.0} of {limit:.0} squares");
-        let mut refusals = Vec::new();
+        let (mut refusals, mut reservations) = (Vec::new(), Vec::new());
         if place > limit {
             let mut refusal = self.too_far(shortest);
             // A short register may be to blame, and not the eye.
@@ -124,8 +94,9 @@ impl PlanePlan {
             let pixel = self.numerator.abs() * geometry.finest_angle / self.checker;
             let ulp = formats.fixed(register).ulp();
             facts += &format!(", their last bit is {}", in_pixels(pixel / ulp));
-            if ulp > pixel * coarsest {
-                refusals.push(Refusal {
+            if ulp > pixel * FINE {
+                let coarse = if ulp > pixel * COARSEST { &mut refusals } else { &mut reservations };
+                coarse.push(Refusal {
                     field: "camera.position",
                     reason: format!(
                         "the eye is {:e} above the plane, where the last bit of a position is \
@@ -138,13 +109,67 @@ impl PlanePlan {
                 });
             }
         }
-        Proof { facts, refusals }
+        Proof { facts, refusals, reservations }
+    }
+
+    fn projection(&self, geometry: &Geometry) -> Projection {
+        let along = self.axes.map(|axis| geometry.view.dot(axis).scaled(1.0 / self.checker));
+        let pack =
+            |pick: &dyn Fn(&LinearScalar) -> f64| DVec3::new(pick(&along[0]), 0.0, pick(&along[1]));
+        Projection {
+            view: LinearVector {
+                start: pack(&|s| s.start),
+                per_line: pack(&|s| s.per_line),
+                per_column: pack(&|s| s.per_column),
+            },
+            g: geometry.view.dot(self.normal),
+            f: self.numerator,
+            eye: self.eye,
+            range: self.range,
+            divides: true,
+            steps: false,
+        }
+    }
+
+    fn units(&self, geometry: &Geometry, full: bool) -> Vec<UnitFit> {
+        use Register as R;
+        let divider = if self.numerator == 0.0 {
+            "the eye lies in the plane, which is seen edge-on: nothing is met"
+        } else {
+            "plane coordinates are a ratio"
+        };
+        let without = |(name, saves)| {
+            let why = if full {
+                "--full; not needed: idle, the scene has no height map"
+            } else {
+                "the scene has no height map"
+            };
+            UnitFit { name, fit: Fit { fitted: full, why: why.into() }, registers: &[], saves }
+        };
+        let idle = [
+            ("stepper", "all steps of all rays"),
+            ("pyramid", "its memory"),
+            ("kernel_rom", "its tables"),
+            ("interpolator", "five lerps and two slopes per pixel"),
+            ("light", "ten products and a table read per pixel"),
+        ];
+        let checker = UnitFit {
+            name: "checker",
+            fit: Fit::always(
+                "colour of a plane: parity of the square, faded where squares are too small",
+            ),
+            registers: &[R::Shade, R::Channel],
+            saves: "",
+        };
+        let projection =
+            [UnitFit::projector(geometry, false), UnitFit::divider(Fit::always(divider))];
+        projection.into_iter().chain(idle.map(without)).chain([checker]).collect()
     }
 }
 
 /// In-plane axes (equation 11): along n × z (n × x where n is nearly z), and across it; x and z
 /// for a floor.
-pub(crate) fn plane_axes(normal: DVec3) -> [DVec3; 2] {
+fn plane_axes(normal: DVec3) -> [DVec3; 2] {
     let across = if normal.z.abs() < 0.9 { DVec3::Z } else { DVec3::X };
     let first = normal.cross(across).normalize();
     [first, first.cross(normal)]

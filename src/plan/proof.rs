@@ -1,8 +1,9 @@
 //! What a plan proves of the registers in use, and what it cannot prove.
 
+use super::PlanError;
 use super::formats::Formats;
 use super::geometry::Geometry;
-use super::{LARGEST_PLACE, PlanError};
+use super::words::LARGEST_PLACE;
 use crate::word::Register;
 
 /// A claim that does not hold.
@@ -31,22 +32,9 @@ pub(super) struct Proof {
     pub(super) facts: String,
     /// The claims that do not hold.
     pub(super) refusals: Vec<Refusal>,
-}
-
-/// What reports say of the registers in use.
-#[derive(Clone, Debug)]
-pub(super) struct Finding {
-    /// Why these words or formats do, or how far they go.
-    pub(super) why: String,
-    /// What is not proved of a sweep; nothing in stock words, which are refused instead.
-    pub(super) not_proved: Vec<String>,
-}
-
-impl Finding {
-    /// Of stock words, which are proved.
-    pub(super) fn proved(why: impl Into<String>) -> Self {
-        Self { why: why.into(), not_proved: Vec::new() }
-    }
+    /// What holds, but not so well that the plan would choose these words while there are finer
+    /// ones.
+    pub(super) reservations: Vec<Refusal>,
 }
 
 impl Proof {
@@ -55,12 +43,18 @@ impl Proof {
         self.refusals.into_iter().next().map_or(Ok(self.facts), Err)
     }
 
-    /// Facts and open claims of a sweep: its formats are coarse on purpose, its overflows counted.
-    pub(super) fn told(self, formats: &Formats<'_>) -> Finding {
+    /// The same, where they hold without reservations.
+    pub(super) fn holds_well(mut self) -> Result<String, Refusal> {
+        self.refusals.append(&mut self.reservations);
+        self.holds()
+    }
+
+    /// The open claims of a sweep: its formats are coarse on purpose, its overflows counted.
+    pub(super) fn not_proved(&self, formats: &Formats<'_>) -> Vec<String> {
         let told = |Refusal { reason, register, .. }: &Refusal| {
             format!("{reason} ({register} {})", formats.fixed(*register))
         };
-        Finding { why: self.facts, not_proved: self.refusals.iter().map(told).collect() }
+        self.refusals.iter().map(told).collect()
     }
 }
 

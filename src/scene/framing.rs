@@ -15,7 +15,6 @@ use super::height_map::source::{self, is_height_file};
 use super::height_map::{Encoding, HeightFile};
 use super::maps::ReadMap;
 use super::shown::shown_path;
-use super::surface::Surface;
 use super::tables::Scene;
 use super::{set, write};
 use view::View;
@@ -101,8 +100,8 @@ impl Framing {
                 .to_owned(),
         ];
         top.extend(self.chosen.iter().map(|reason| format!("Note: {reason}.")));
-        let map = match &self.scene.surface {
-            Surface::Terrain(terrain) if !terrain.is_built_in() => {
+        let map = match self.scene.terrain() {
+            Some(terrain) if !terrain.is_built_in() => {
                 let map = self.folder.join(&terrain.source);
                 relative(&map, target).ok_or_else(|| SceneError::Unreadable {
                     file: shown_path(target),

@@ -48,11 +48,11 @@ impl Kind {
 }
 
 /// Reads the `[[surface]]` tables; without any there is one of defaults.
-pub(super) fn read(scene: &Fields<'_>) -> Result<Surface, SceneError> {
+pub(super) fn read(scene: &Fields<'_>) -> Result<Vec<Surface>, SceneError> {
     let tables = scene.get("surface").map(|field| field.tables()).transpose()?;
     match tables.unwrap_or_default().as_slice() {
-        [] => Terrain::load(&scene.empty("surface")).map(Surface::Terrain),
-        [one] => Surface::read(one),
+        [] => Ok(vec![Surface::Terrain(Terrain::load(&scene.empty("surface"))?)]),
+        [one] => Ok(vec![Surface::read(one)?]),
         [_, second, ..] => {
             let reason = "a scene with more than one surface is not built yet";
             Err(second.error(reason, "keep one [[surface]]"))
@@ -61,6 +61,33 @@ pub(super) fn read(scene: &Fields<'_>) -> Result<Surface, SceneError> {
 }
 
 impl Surface {
+    /// The height map, of a surface that is one.
+    pub fn terrain(&self) -> Option<&Terrain> {
+        match self {
+            Self::Terrain(terrain) => Some(terrain),
+            Self::Plane(_) => None,
+        }
+    }
+
+    /// Its smallest feature, scene units: the shorter side of a cell or a square.
+    pub fn grain(&self) -> f64 {
+        match self {
+            Self::Terrain(terrain) => terrain.cell.min_element(),
+            Self::Plane(plane) => plane.checker,
+        }
+    }
+
+    /// How far across its features go on, scene units: the map, or a hundred squares of a plane.
+    pub fn width(&self) -> f64 {
+        match self {
+            Self::Terrain(terrain) => {
+                let nodes = terrain.map.columns().max(terrain.map.rows()) as f64;
+                nodes * terrain.cell.max_element()
+            }
+            Self::Plane(plane) => 100.0 * plane.checker,
+        }
+    }
+
     /// Reads one `[[surface]]` table.
     fn read(field: &Field<'_>) -> Result<Self, SceneError> {
         let table = field.open()?;

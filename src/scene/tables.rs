@@ -12,10 +12,11 @@ use super::screen::{self, Screen};
 use super::stepper::Stepper;
 use super::surface::{self, Surface};
 use super::table::{Table, keys, names, open, table};
+use super::terrain::Terrain;
 use super::writer::Writer;
 use crate::word::Registers;
 
-/// A complete scene: camera, screens, one surface, and the machine that draws it.
+/// A complete scene: camera, screens, surfaces, and the machine that draws it.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// File stem or built-in name, for reports.
@@ -28,8 +29,9 @@ pub struct Scene {
     pub camera: Camera,
     /// One screen per channel, at least one.
     pub screens: Vec<Screen>,
-    /// What the rays meet: a height map or a plane.
-    pub surface: Surface,
+    /// What the rays meet, at least one: of several the nearest shows, of equally near ones the
+    /// first.
+    pub surfaces: Vec<Surface>,
     /// The finite function that interpolates heights.
     pub kernel: Kernel,
     /// How a ray walks over the map.
@@ -117,7 +119,7 @@ impl Scene {
             seed,
             camera: Camera::default(),
             screens: vec![Screen::default()],
-            surface,
+            surfaces: vec![surface],
             kernel: Kernel::default(),
             stepper: Stepper::default(),
             light: Light::default(),
@@ -125,6 +127,19 @@ impl Scene {
             machine: Hardware::default(),
             formats: Vec::new(),
         }
+    }
+
+    /// Its height map, the first one of several.
+    pub fn terrain(&self) -> Option<&Terrain> {
+        self.surfaces.iter().find_map(Surface::terrain)
+    }
+
+    /// The same, to change it.
+    pub fn terrain_mut(&mut self) -> Option<&mut Terrain> {
+        self.surfaces.iter_mut().find_map(|surface| match surface {
+            Surface::Terrain(terrain) => Some(terrain),
+            Surface::Plane(_) => None,
+        })
     }
 
     /// Reads a scene from its top level.
@@ -146,7 +161,7 @@ impl Scene {
             machine: read(top, "machine")?,
             formats: read_formats(top)?,
             // Last, because the map may be large: every other mistake is found before it is read.
-            surface: surface::read(top)?,
+            surfaces: surface::read(top)?,
         })
     }
 
@@ -156,7 +171,9 @@ impl Scene {
         for screen in &self.screens {
             write(out, "[[screen]]", screen);
         }
-        self.surface.write(out);
+        for surface in &self.surfaces {
+            surface.write(out);
+        }
         write(out, "[kernel]", &self.kernel);
         write(out, "[stepper]", &self.stepper);
         write(out, "[light]", &self.light);

@@ -1,7 +1,6 @@
 //! A scene as TOML: complete, so that nothing depends on a default, and exact, so that reading it
 //! gives the same scene in every bit.
 
-use super::surface::Surface;
 use super::tables::Scene;
 use super::writer::Writer;
 
@@ -29,9 +28,7 @@ pub fn commented(scene: &Scene, map: &str, top: &[String]) -> String {
 
 fn written(scene: &Scene, map: &str, mut out: Writer) -> String {
     let mut scene = scene.clone();
-    if let Surface::Terrain(terrain) = &mut scene.surface
-        && !terrain.is_built_in()
-    {
+    if let Some(terrain) = scene.terrain_mut().filter(|terrain| !terrain.is_built_in()) {
         map.clone_into(&mut terrain.source);
     }
     scene.write(&mut out);

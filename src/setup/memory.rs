@@ -5,8 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::kernel;
-use crate::plan::ranges::TerrainPlan;
-use crate::plan::{ALL_BITS, Plan, SurfacePlan};
+use crate::plan::{ALL_BITS, Plan, SurfacePlan, TerrainPlan};
 use crate::scene::{Deformation, Kernel, KernelShape, Outside, Scene, Surface, Terrain};
 use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
@@ -42,20 +41,34 @@ pub(super) fn load<T: Load>(
 }
 
 impl<W: Open> Memory<W> {
-    /// Loads the memories of a scene; `None` where it has no height map.
+    /// Loads the memories of a scene's surfaces; `None` for one that is no height map.
     ///
     /// # Errors
     /// If a height or weight does not fit its register: only in a sweep.
-    pub fn new(world: &W, scene: &Scene, plan: &Plan) -> Result<Option<Self>, super::SetupError> {
-        let (Surface::Terrain(terrain), SurfacePlan::Terrain(walk)) =
-            (&scene.surface, &plan.surface)
-        else {
-            return Ok(None);
+    pub fn of_surfaces(
+        world: &W,
+        scene: &Scene,
+        plan: &Plan,
+    ) -> Result<Vec<Option<Self>>, super::SetupError> {
+        let surfaces = scene.surfaces.iter().zip(&plan.surfaces);
+        let memory = |(surface, planned): (&Surface, &SurfacePlan)| {
+            let terrain = surface.terrain().zip(planned.terrain());
+            terrain.map(|(terrain, walk)| Self::new(world, scene, plan, terrain, walk)).transpose()
         };
-        let heights = heights(world, terrain, walk, plan.fitted.void_bits)?;
-        let form = form(&scene.kernel, plan);
+        surfaces.map(memory).collect()
+    }
+
+    fn new(
+        world: &W,
+        scene: &Scene,
+        plan: &Plan,
+        terrain: &Terrain,
+        walk: &TerrainPlan,
+    ) -> Result<Self, super::SetupError> {
+        let heights = heights(world, terrain, walk)?;
+        let form = form(&scene.kernel, plan.full, walk.fitted.kernel_rom.fitted);
         let radius = i32::from(form == Form::Stretch);
-        let pyramid = plan.fitted.pyramid.then(|| Arc::new(Pyramid::new(&heights, radius)));
+        let pyramid = walk.fitted.pyramid.fitted.then(|| Arc::new(Pyramid::new(&heights, radius)));
         let rom = match form {
             Form::Hat => None,
             _ => Some(Arc::new(kernel_rom(world, &scene.kernel)?)),
@@ -69,13 +82,13 @@ impl<W: Open> Memory<W> {
                 load(1.0 / libm::sqrt(square), Register::Shade, tone)
             })
             .collect::<Result<_, _>>()?;
-        Ok(Some(Self {
+        Ok(Self {
             heights: Arc::new(heights),
             pyramid,
             rom,
             form,
             rsqrt: Arc::new(Table::new(RSQRT_LOG2, rsqrt)),
-        }))
+        })
     }
 }
 
@@ -83,7 +96,6 @@ fn heights<W: Open>(
     world: &W,
     terrain: &Terrain,
     walk: &TerrainPlan,
-    void_bits: bool,
 ) -> Result<HeightMemory<W::Height>, super::SetupError> {
     let format = world.height(Register::Node);
     let nodes = terrain
@@ -104,7 +116,7 @@ fn heights<W: Open>(
         Outside::Wrap => Edge::Wraps,
     };
     let memory = HeightMemory::new(nodes, columns, rows, edge);
-    Ok(if void_bits {
+    Ok(if walk.fitted.void_bits.fitted {
         memory.with_voids(terrain.map.samples().iter().map(|sample| sample.is_nan()).collect())
     } else {
         memory
@@ -112,14 +124,14 @@ fn heights<W: Open>(
 }
 
 /// The smallest form that gives the kernel's bits; the full machine's form where all is fitted.
-fn form(kernel: &Kernel, plan: &Plan) -> Form {
+fn form(kernel: &Kernel, full: bool, rom: bool) -> Form {
     match kernel.deformation {
         // Constant maps, too: every form is exact on them.
-        _ if !plan.fitted.kernel_rom => Form::Hat,
+        _ if !rom => Form::Hat,
         Deformation::Stretch => Form::Stretch,
         // The general datapath: a shift by all bits is the hat, one by zero the kernel.
-        _ if plan.full && kernel.shape == KernelShape::Hat => Form::TowardHat(ALL_BITS),
-        Deformation::None if plan.full => Form::TowardHat(0),
+        _ if full && kernel.shape == KernelShape::Hat => Form::TowardHat(ALL_BITS),
+        Deformation::None if full => Form::TowardHat(0),
         Deformation::None => Form::Plain,
         Deformation::TowardHat { weight_shift } => Form::TowardHat(weight_shift.min(ALL_BITS)),
     }

@@ -21,7 +21,7 @@ use super::SinkError;
 use super::folder::NewFolder;
 use crate::engine::{FixedWorld, Machine, WithSetup};
 use crate::processor::Processor;
-use crate::setup::{Back, Setup, table};
+use crate::setup::{Setup, table};
 use crate::unit::{Line, Unit as _};
 use crate::word::{Complete, Overflow, Register, Rounding};
 use bench::Benches;
@@ -41,6 +41,9 @@ pub enum VectorsError {
     /// A file cannot be written.
     #[error(transparent)]
     Sink(#[from] SinkError),
+    /// Files are named after units, of which several surfaces would have several.
+    #[error("surface: test vectors of several surfaces are not built yet; keep one [[surface]]")]
+    SeveralSurfaces,
     /// Random bits are part of what is expected.
     #[error(
         "format.{0}: stochastic rounding draws random bits that no other hardware has; give it \
@@ -77,8 +80,11 @@ impl Vectors<'_> {
     /// Writes the folder, whole or not at all.
     ///
     /// # Errors
-    /// If a register rounds stochastically, or a file cannot be written.
+    /// If there are several surfaces, a register rounds stochastically, or a file cannot be written.
     pub fn write(self) -> Result<Report, VectorsError> {
+        if self.machine.plan().surfaces.len() > 1 {
+            return Err(VectorsError::SeveralSurfaces);
+        }
         if let FixedWorld::Sweep(world) = self.machine.world() {
             let stochastic = |r: &&Register| world.format(**r).rounding == Rounding::Stochastic;
             if let Some(&register) = Register::ALL.iter().find(stochastic) {
@@ -147,15 +153,16 @@ impl<'a> Files<'a> {
     /// cases, then the memories.
     fn write<W: Complete>(&self, setup: &'a Setup<W>) -> Result<Vec<Written>, SinkError> {
         let world = &setup.world;
-        let mut scan = Scan::begin(self, setup)?;
-        let mut benches = Benches::begin(self, setup)?;
+        let [surface] = &setup.surfaces[..] else { unreachable!("`Vectors::write` refuses it") };
+        let mut scan = Scan::begin(self, world, &surface.projector)?;
+        let mut benches = Benches::begin(self, setup, surface)?;
         let mut timing = Timing::begin(self, setup)?;
         let mut processor = Processor::new(setup);
         for (number, columns) in &self.vectors.selection.lines {
             processor.skip_to(*number);
             let mut line = Line::new(world, columns.list());
             processor.begin(&mut line);
-            setup.projector.run(&mut line);
+            surface.projector.run(&mut line);
             scan.rows(&line, 0, line.len())?;
             benches.rows(&mut line)?;
             timing.rows(&line)?;
@@ -163,7 +170,7 @@ impl<'a> Files<'a> {
 
         let count = self.vectors.corner_cases;
         let mut cases = CornerCases::new(*world, self.vectors.seed);
-        scan.corner_cases(&setup.projector, &mut cases, count)?;
+        scan.corner_cases(&surface.projector, &mut cases, count)?;
         for from in (0..count).step_by(CHUNK as usize) {
             benches.corner_cases(&mut cases, CHUNK.min(count - from))?;
         }
@@ -171,7 +178,7 @@ impl<'a> Files<'a> {
         let mut written = scan.finish()?.to_vec();
         written.extend(benches.finish()?);
         written.push(timing.finish()?);
-        if let Back::Terrain(units) = &setup.back {
+        if let Some(units) = surface.back.terrain() {
             written.extend(memories::write(world, units, self.folder, self.scene)?);
         }
         Ok(written)

@@ -145,9 +145,11 @@ impl Measure<'_> {
                 + done.products * u64::from(per_product)
                 + done.ratios * u64::from(per_ratio)
         };
+        let of_units = &clock.chain().of_units;
         let units: Vec<UnitCost> = clock
             .occupancy()
-            .map(|(stage, occupancy)| {
+            .enumerate()
+            .map(|(at, (stage, occupancy))| {
                 let mut cost = UnitCost {
                     name: stage.name,
                     latency_cycles: stage.timing.latency,
@@ -156,11 +158,9 @@ impl Measure<'_> {
                     stalled_cycles_per_pixel: occupancy.stalled as f64 / pixels,
                     ..UnitCost::default()
                 };
-                let of_units = setup.chain().into_iter().zip(reads).zip(operations);
+                let chain = setup.chain().into_iter().zip(of_units).zip(reads).zip(operations);
                 let (mut sums, mut products, mut read) = (0, 0, Reads::default());
-                for ((unit, reads), done) in
-                    of_units.filter(|((unit, _), _)| unit.description().stage == stage.name)
-                {
+                for (((unit, _), reads), done) in chain.filter(|(((_, of), _), _)| **of == at) {
                     sums += additions(unit, done);
                     products += done.products;
                     read.memory += reads.memory;

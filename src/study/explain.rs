@@ -85,13 +85,14 @@ impl Machine<'_> {
     pub fn explain(&self, column: u32, line: u32) -> Result<Explanation, SetupError> {
         let plan = self.plan();
         let fixed = self.run(PixelTrace { column, line, index: None });
+        let surface = &plan.surfaces[fixed.owner];
         let real = PixelTrace { column, line, index: Some(fixed.steps) }.run(self.real()?);
         let oracle = self.oracle();
         let sighting = oracle.pixel(line.into(), column.into());
         let closed = Closed {
             scene: self.scene(),
-            plan,
-            coefficients: Coefficients::new(plan),
+            surface,
+            coefficients: Coefficients::new(surface, &plan.geometry),
             direction: oracle.direction(line.into(), column.into()),
             eye: oracle.eye(),
             sighting,

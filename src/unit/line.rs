@@ -89,8 +89,8 @@ macro_rules! wires {
         pub struct Line<W: World> {
             /// Scan line from the top.
             pub number: u32,
-            /// The projector's accumulators at the first column.
-            pub start: LineStart<W>,
+            /// The accumulators of each surface's projector at the first column.
+            pub start: Vec<LineStart<W>>,
             /// Column of each pixel.
             pub column: Vec<u32>,
             $($(#[$doc])* pub $field: Vec<W::$class>,)*
@@ -105,6 +105,10 @@ macro_rules! wires {
             pub work: Vec<Work>,
             /// sRGB bytes.
             pub color: Vec<[u8; 3]>,
+            /// Index of the surface whose wires they are.
+            pub owner: Vec<u32>,
+            /// The wires of the nearest surface so far, where several compete.
+            pub nearest: Option<Box<Line<W>>>,
         }
 
         impl<W: World> Line<W> {
@@ -114,7 +118,7 @@ macro_rules! wires {
                 let n = column.len();
                 Self {
                     number: 0,
-                    start: LineStart::idle(world),
+                    start: vec![LineStart::idle(world)],
                     column,
                     $($field: vec![W::$class::zero(world.$format(Register::$register)); n],)*
                     $($color: vec![[W::Tone::zero(world.tone(Register::Channel)); 3]; n],)*
@@ -123,7 +127,20 @@ macro_rules! wires {
                     steps: vec![0; n],
                     work: vec![Work::default(); n],
                     color: vec![[0; 3]; n],
+                    owner: vec![0; n],
+                    nearest: None,
                 }
+            }
+
+            /// Takes over the wires of a pixel, but for the work on it.
+            pub fn take_pixel(&mut self, from: &Self, i: usize) {
+                $(self.$field[i] = from.$field[i];)*
+                $(self.$color[i] = from.$color[i];)*
+                self.entry[i] = from.entry[i];
+                self.hit[i] = from.hit[i];
+                self.steps[i] = from.steps[i];
+                self.color[i] = from.color[i];
+                self.owner[i] = from.owner[i];
             }
 
             /// Whether the word on a wire has overflowed its register.
@@ -294,6 +311,8 @@ wires! {
     view_z ViewZ View.view ViewZ Always "view vector along z",
     /// Denominator of the projection.
     denominator Denominator View.view Denominator Always "positive towards the plane",
+    /// 1/λ of the surface that shows, in the scale of all that compete; zero where none does.
+    depth Depth View.view Denominator Always "nearness, greatest for what shows",
     /// Where the ray meets the plane of the divider, x.
     entry_x EntryX Ground.ground GroundX Entered "eye plus quotient, x",
     /// Where the ray meets the plane of the divider, z.

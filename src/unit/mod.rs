@@ -16,6 +16,7 @@
 
 pub mod checker;
 pub mod coefficient;
+pub mod depth;
 pub mod description;
 pub mod divider;
 pub mod height_memory;

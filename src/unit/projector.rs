@@ -45,6 +45,8 @@ pub struct Linear<T> {
 /// The projector's coefficient registers. An accumulator that the scene does not need is absent.
 #[derive(Clone, Debug)]
 pub struct Projector<W: World> {
+    /// Index of its surface.
+    pub surface: usize,
     /// View vector, x.
     pub x: Linear<W::View>,
     /// View vector, y; only the stepper needs it.
@@ -109,7 +111,7 @@ impl<W: World> Unit<W> for Projector<W> {
     /// The wires take the pixels of `line.column`, in ascending order; the accumulators walk over
     /// every column up to the last one asked for.
     fn run(&self, line: &mut Line<W>) {
-        let start = line.start;
+        let start = line.start[self.surface];
         accumulate(start.x, self.x.per_column, &line.column, &mut line.view_x);
         accumulate(start.z, self.z.per_column, &line.column, &mut line.view_z);
         if let Some(c) = self.y {

@@ -17,7 +17,7 @@ const AROUND: i64 = 3;
 /// take too long to make for every step of a flight.
 #[must_use]
 pub fn height(scene: &Scene, at: DVec3) -> Option<f64> {
-    let Surface::Terrain(terrain) = &scene.surface else {
+    let Some(terrain) = scene.terrain() else {
         return Oracle::new(scene, &scene.screens[0]).surface_height(at.x, at.z);
     };
     let cell = terrain.cell;
@@ -46,7 +46,7 @@ pub fn height(scene: &Scene, at: DVec3) -> Option<f64> {
     }
     let map = Arc::new(HeightMap::new(side as usize, side as usize, samples));
     let around = Terrain { map, outside: Outside::Clamp, ..terrain.clone() };
-    let scene = Scene { surface: Surface::Terrain(around), ..scene.clone() };
+    let scene = Scene { surfaces: vec![Surface::Terrain(around)], ..scene.clone() };
     let (x, z) = (at.x - first_i as f64 * cell.x, at.z - first_j as f64 * cell.y);
     Oracle::new(&scene, &scene.screens[0]).surface_height(x, z)
 }

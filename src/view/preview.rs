@@ -46,7 +46,7 @@ impl Renderer {
     /// A frame on a raster coarser by a whole number, enlarged.
     fn coarse(&mut self, job: Job<'_>, task: &Task, factor: usize) -> Result<(), End> {
         let Job { machine, order, desk } = job;
-        let scene = coarser(&order.scene, factor, machine.plan().words());
+        let scene = coarser(&order.scene, factor, machine.plan().words);
         // What the coarse raster cannot do does not matter: the true frame follows.
         let Ok(plan) = Plan::new(&scene, None, order.full) else { return Ok(()) };
         let Ok(coarse) = Machine::new(&scene, &plan, &self.memories) else { return Ok(()) };

@@ -262,7 +262,7 @@ impl Session {
 
     /// Whether the scene has a kernel; says so if it has none.
     fn has_kernel(&mut self) -> bool {
-        let terrain = matches!(self.scene.surface, Surface::Terrain(_));
+        let terrain = self.scene.terrain().is_some();
         if !terrain {
             self.notice = Some("a plane has no kernel".into());
         }
@@ -318,10 +318,7 @@ impl Session {
 
     /// Changes the camera; the function is given the grain of positions.
     fn fly(&mut self, change: impl FnOnce(&mut Camera, f64)) {
-        let grain = match &self.scene.surface {
-            Surface::Terrain(terrain) => terrain.cell.min_element(),
-            Surface::Plane(plane) => plane.checker,
-        };
+        let grain = self.scene.surfaces.iter().map(Surface::grain).fold(f64::INFINITY, f64::min);
         change(&mut self.scene.camera, grain);
         self.keep_above_ground();
         self.changed = true;
@@ -330,13 +327,7 @@ impl Session {
     /// Scene units per second.
     fn speed(&self) -> f64 {
         let height = self.eye_above_ground().map_or(0.0, f64::abs);
-        let width = match &self.scene.surface {
-            Surface::Terrain(terrain) => {
-                let nodes = terrain.map.columns().max(terrain.map.rows()) as f64;
-                nodes * terrain.cell.max_element()
-            }
-            Surface::Plane(plane) => 100.0 * plane.checker,
-        };
+        let width = self.scene.surfaces.iter().map(Surface::width).fold(0.0, f64::max);
         SPEED.0 * height + SPEED.1 * width
     }
 
@@ -354,7 +345,7 @@ impl Session {
 
     /// No engine draws from under the ground of a height map: the craft is lifted above it.
     fn keep_above_ground(&mut self) {
-        let Surface::Terrain(terrain) = &self.scene.surface else { return };
+        let Some(terrain) = self.scene.terrain() else { return };
         let clearance = CLEARANCE * terrain.cell.max_element();
         if let Some(above) = self.eye_above_ground()
             && above < clearance

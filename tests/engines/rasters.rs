@@ -25,12 +25,12 @@ fn check(what: &str, scene: &Scene, wrong: &mut Vec<String>) -> usize {
         let Ok(plan) = Plan::new(&scene, None, false) else { continue };
         let drawn = std::panic::catch_unwind(|| both(&scene, &plan));
         match drawn {
-            Err(_) => wrong.push(format!("{what}, {}: panicked", plan.words().name)),
-            Ok(Err(error)) => wrong.push(format!("{what}, {}: {error}", plan.words().name)),
+            Err(_) => wrong.push(format!("{what}, {}: panicked", plan.words.name)),
+            Ok(Err(error)) => wrong.push(format!("{what}, {}: {error}", plan.words.name)),
             Ok(Ok((processor, fast))) => {
                 met += count(&processor, Hit::Surface);
                 if let Some(difference) = difference(&processor, &fast) {
-                    wrong.push(format!("{what}, {}: {difference}", plan.words().name));
+                    wrong.push(format!("{what}, {}: {difference}", plan.words.name));
                 }
             }
         }
@@ -90,7 +90,7 @@ fn planes_are_drawn_alike_from_every_height() {
                     let mut scene = turned(builtin("plane", 33, 29), 0.0, sign * pitch, 0.0);
                     let height = sign * 10_f64.powi(exponent);
                     scene.camera.position = DVec3::new(3.0, height, -2.0);
-                    let Surface::Plane(plane) = &mut scene.surface else { panic!("a plane") };
+                    let Surface::Plane(plane) = &mut scene.surfaces[0] else { panic!("a plane") };
                     plane.checker = checker;
                     let what = format!("squares of {checker}, eye at {height}, pitch {pitch}");
                     met += check(&what, &scene, &mut wrong);
@@ -110,7 +110,7 @@ fn planes_of_every_direction_are_drawn_alike() {
         for distance in [-40.0, -0.25, 0.0, 7.0, 300.0] {
             for heading in [0.0, 90.0, 7200.0 + 200.0, -5000.0] {
                 let mut scene = turned(builtin("plane", 31, 17), heading, -20.0, 33.0);
-                let Surface::Plane(plane) = &mut scene.surface else { panic!("a plane") };
+                let Surface::Plane(plane) = &mut scene.surfaces[0] else { panic!("a plane") };
                 plane.normal = normal.normalize();
                 plane.distance = distance;
                 let what = format!("normal {normal}, distance {distance}, heading {heading}");
@@ -217,7 +217,7 @@ fn kernels() -> Vec<terraline::scene::Kernel> {
 #[test]
 fn the_word_sizes_are_what_was_asked_for() {
     let mut scene = builtin("flight", 8, 8);
-    assert_eq!(plan(&scene).words(), WordClass::NARROW);
+    assert_eq!(plan(&scene).words, WordClass::NARROW);
     scene.machine.words = WordSize::Wide;
-    assert_eq!(plan(&scene).words(), WordClass::WIDE);
+    assert_eq!(plan(&scene).words, WordClass::WIDE);
 }

@@ -29,7 +29,7 @@ fn stock_words_are_a_sweep_at_the_stock_formats() {
             let mut scene = builtin(name, 48, 36);
             scene.machine.words = words;
             let plan = super::support::plan(&scene);
-            let sweep = Formats::stock(plan.words()).sweep(scene.seed).expect("stock formats");
+            let sweep = Formats::stock(plan.words).sweep(scene.seed).expect("stock formats");
             assert!(sweep.wraps());
             let stock = drawn(&scene, &plan).expect("a frame");
             let swept = in_sweep(sweep, &scene, &plan);
@@ -49,12 +49,12 @@ fn random_scenes_are_the_same_in_a_sweep_at_the_stock_formats() {
             scene.machine.words = words;
             let Ok(plan) = Plan::new(&scene, None, false) else { continue };
             let Ok(stock) = drawn(&scene, &plan) else { continue };
-            let sweep = Formats::stock(plan.words()).sweep(scene.seed).expect("stock formats");
+            let sweep = Formats::stock(plan.words).sweep(scene.seed).expect("stock formats");
             let swept = in_sweep(sweep, &scene, &plan).frame(Engine::Processor, true);
             let swept = swept.expect("what fits stock fits here");
             compared.fetch_add(1, Relaxed);
             if let Some(difference) = difference(&stock, &swept) {
-                let words = plan.words().name;
+                let words = plan.words.name;
                 return Err(TestCaseError::fail(format!("stock and sweep, {words}: {difference}")));
             }
         }
@@ -187,7 +187,7 @@ fn a_stock_format_that_is_asked_for_changes_nothing() {
             scene.machine.words = words;
             let stock_plan = super::support::plan(&scene);
             let stock = drawn(&scene, &stock_plan).expect("a frame");
-            for request in stock_requests(stock_plan.words()) {
+            for request in stock_requests(stock_plan.words) {
                 scene.formats = vec![request];
                 let what = format!("{name}, {}", request.0.name());
                 let plan = super::support::plan(&scene);

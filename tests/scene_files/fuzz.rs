@@ -20,7 +20,7 @@ use terraline::engine::{Engine, FixedWorld};
 use terraline::frame::Frame;
 use terraline::plan::{Plan, SurfacePlan};
 use terraline::scene::file::{Document, parse};
-use terraline::scene::{Scene, SceneError, Surface, builtin, framing, write};
+use terraline::scene::{Scene, SceneError, builtin, framing, write};
 use terraline::setup::SetupError;
 use terraline::study::error::Sample;
 
@@ -193,7 +193,7 @@ fn reads_back(scene: &Scene, text: &str) -> Result<(), Stop> {
 /// Plans and draws a scene; `stages` counts how far it comes.
 fn draw(mut scene: Scene, stages: &AtomicUsize) -> Result<(), Stop> {
     stages.store(1, Relaxed);
-    if let Surface::Terrain(terrain) = &scene.surface
+    if let Some(terrain) = scene.terrain()
         && terrain.map.samples().len() > MOST_NODES
     {
         return Ok(());
@@ -201,10 +201,9 @@ fn draw(mut scene: Scene, stages: &AtomicUsize) -> Result<(), Stop> {
     for screen in &mut scene.screens {
         *screen = screen.resized(16, 12);
     }
-    let steps = match Plan::new(&scene, None, false).map_err(refused)?.surface {
-        SurfacePlan::Terrain(walk) => walk.last,
-        SurfacePlan::Plane(_) => 0,
-    };
+    let plan = Plan::new(&scene, None, false).map_err(refused)?;
+    let steps = plan.surfaces.iter().filter_map(SurfacePlan::terrain).map(|walk| walk.last);
+    let steps = steps.max().unwrap_or(0);
     // Rays that hardly move, or run along cliffs, take most of their steps.
     if steps > MOST_STEPS {
         return Ok(());
@@ -263,10 +262,7 @@ fn study(scene: &Scene, plan: &Plan, frame: &Frame) -> Result<(), Stop> {
 }
 
 fn written(scene: &Scene) -> String {
-    match &scene.surface {
-        Surface::Terrain(terrain) => write::toml(scene, &terrain.source),
-        Surface::Plane(_) => write::toml(scene, ""),
-    }
+    write::toml(scene, scene.terrain().map_or("", |terrain| &terrain.source))
 }
 
 #[test]

@@ -73,9 +73,9 @@ fn options_replace_the_other_form() {
     assert_eq!(pitch.screens[0].extent, Extent::Pitch { distance: 2.0, pixel });
 
     let plane = set_over("overview", &["surface.kind=plane", "surface.checker=2"]).unwrap();
-    assert!(matches!(plane.surface, Surface::Plane(plane) if plane.checker == 2.0));
+    assert!(matches!(&plane.surfaces[..], [Surface::Plane(plane)] if plane.checker == 2.0));
     let terrain = set_over("plane", &["surface.kind=terrain"]).unwrap();
-    assert!(matches!(terrain.surface, Surface::Terrain(_)));
+    assert!(matches!(&terrain.surfaces[..], [Surface::Terrain(_)]));
 }
 
 #[test]

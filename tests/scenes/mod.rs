@@ -10,7 +10,7 @@ use terraline::scene::{
     Attitude, Camera, Colors, Deformation, Encoding, Extent, Hardware, HeightMap, Kernel,
     KernelShape, Light, NoData, Outside, Plane, Scene, Screen, Surface, Terrain, WordSize,
 };
-use terraline::setup::{Back, Setup, TerrainUnits};
+use terraline::setup::{Setup, TerrainUnits};
 use terraline::unit::interpolator::Interpolator;
 use terraline::word::Complete;
 
@@ -97,11 +97,9 @@ pub fn machine<W: Complete>(world: W, scene: &Scene, full: bool) -> (Plan, Setup
 }
 
 /// The units behind the divider of a height map's machine.
-pub fn units<W: Complete>(world: W, scene: &Scene, full: bool) -> Box<TerrainUnits<W>> {
-    match machine(world, scene, full).1.back {
-        Back::Terrain(units) => units,
-        Back::Plane(_) => panic!("not a height map"),
-    }
+pub fn units<W: Complete>(world: W, scene: &Scene, full: bool) -> TerrainUnits<W> {
+    let (_, setup) = machine(world, scene, full);
+    setup.surfaces[0].back.terrain().expect("a height map").clone()
 }
 
 /// Its interpolator.

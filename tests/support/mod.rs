@@ -76,16 +76,13 @@ pub fn map(columns: usize, rows: usize, height: impl Fn(usize, usize) -> f32) ->
 
 /// The terrain of a scene that has one.
 pub fn terrain(scene: &mut Scene) -> &mut Terrain {
-    match &mut scene.surface {
-        Surface::Terrain(terrain) => terrain,
-        Surface::Plane(_) => panic!("a scene with a terrain"),
-    }
+    scene.terrain_mut().expect("a scene with a terrain")
 }
 
 /// All of a scene but the samples of its map, in every bit.
 pub fn described(scene: &Scene) -> String {
     let mut scene = scene.clone();
-    if let Surface::Terrain(terrain) = &mut scene.surface {
+    if let Some(terrain) = scene.terrain_mut() {
         terrain.map = Arc::new(HeightMap::new(1, 1, vec![0.0]));
     }
     format!("{:#?}", Scene { name: String::new(), ..scene })

@@ -52,7 +52,7 @@ impl WithSetup for Grade<'_> {
             exact::interpolator(files)?;
         }
         self.units(setup)?;
-        if let Back::Terrain(units) = &setup.back {
+        if let Some(units) = setup.surfaces[0].back.terrain() {
             memories::check(files, units)?;
         }
         Ok(())
@@ -68,10 +68,10 @@ impl Grade<'_> {
     /// Files that the page lists for a machine, in the order of their names.
     fn names<W: Complete>(&self, setup: &Setup<W>) -> Vec<String> {
         let mut names = vec!["cycles", "projector", "projector_coefficients"];
-        if setup.divider.is_some() {
+        if setup.surfaces[0].divider.is_some() {
             names.push("divider");
         }
-        match &setup.back {
+        match &setup.surfaces[0].back {
             Back::Plane(_) => names.push("checker"),
             Back::Terrain(units) => {
                 names.extend(["stepper", "interpolator", "ramp", "mixer", "pixel"]);
@@ -164,12 +164,12 @@ impl Grade<'_> {
 
     /// Registers of the machine, and all rows through the units.
     fn units<W: Complete>(&self, setup: &Setup<W>) -> Result<(), String> {
-        if let Some(unit) = &setup.divider {
+        if let Some(unit) = &setup.surfaces[0].divider {
             let file = &self.files["divider"];
             registers(file, &[("eye_x", unit.eye_x.raw()), ("eye_z", unit.eye_z.raw())])?;
             registers(file, &[("ratio_bits_x", Some(unit.bits[0].into()))])?;
         }
-        match &setup.back {
+        match &setup.surfaces[0].back {
             Back::Plane(unit) => self.plane(unit)?,
             Back::Terrain(units) => self.terrain(units)?,
         }

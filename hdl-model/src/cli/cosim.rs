@@ -9,7 +9,7 @@ use terraline::cli::scene_args::SceneArgs;
 use terraline::cli::{Stop, report};
 use terraline::clock::Taker;
 use terraline::engine::WithSetup;
-use terraline::plan::{Plan, SurfacePlan};
+use terraline::plan::Plan;
 use terraline::setup::Setup;
 use terraline::word::Complete;
 
@@ -95,11 +95,6 @@ impl Cosim {
         let planned = self.scene.load()?;
         let (scene, plan) = (&planned.scene, &planned.plan);
         let refuse = |reason: String| Stop::BadInput(format!("{}: {reason}", planned.named));
-        if plan.fitted.idle && matches!(plan.surface, SurfacePlan::Plane(_)) {
-            return Err(refuse(
-                "--full: the RTL of a plane has no idle units; leave it out".into(),
-            ));
-        }
         let window = self.window(plan).map_err(Stop::BadInput)?;
         let path = self.trace.as_deref().map(trace_path).transpose()?;
         let compare = Compare {

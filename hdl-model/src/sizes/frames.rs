@@ -37,7 +37,7 @@ fn frame(name: &str, columns: u32, lines: u32) -> Result<FrameRow, String> {
     let cost = machine.cost(&all, &one).map_err(|error| refused(&error))?;
     Ok(FrameRow {
         scene: name.into(),
-        words: plan.words().name.into(),
+        words: plan.words.name.into(),
         columns,
         lines,
         cycles: cost.cycles,

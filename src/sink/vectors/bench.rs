@@ -4,7 +4,7 @@ use super::Files;
 use super::corner_cases::CornerCases;
 use super::text::{Header, Heading, Sheet, Way, Written};
 use super::wires::{COUNT, bits, heading, place, registers};
-use crate::setup::Setup;
+use crate::setup::{Setup, SurfaceUnits};
 use crate::sink::SinkError;
 use crate::unit::coefficient::Bank;
 use crate::unit::{Cycles, Line, Unit, Wire};
@@ -76,16 +76,20 @@ impl<'a, W: Complete> Bench<'a, W> {
 
 /// The open files of the units behind the projector, in the order of the chain.
 pub struct Benches<'a, W: Complete> {
-    setup: &'a Setup<W>,
+    surface: &'a SurfaceUnits<W>,
     benches: Vec<Bench<'a, W>>,
 }
 
 impl<'a, W: Complete> Benches<'a, W> {
     /// Begins the files of the units that are fitted and work.
-    pub fn begin(files: &Files<'a>, setup: &'a Setup<W>) -> Result<Self, SinkError> {
-        let units = setup.chain().into_iter().skip(1).filter(|unit| !unit.is_idle());
+    pub fn begin(
+        files: &Files<'a>,
+        setup: &'a Setup<W>,
+        surface: &'a SurfaceUnits<W>,
+    ) -> Result<Self, SinkError> {
+        let units = surface.chain().into_iter().skip(1).filter(|unit| !unit.is_idle());
         let benches = units.map(|unit| Bench::begin(files, setup, unit));
-        Ok(Self { setup, benches: benches.collect::<Result<_, _>>()? })
+        Ok(Self { surface, benches: benches.collect::<Result<_, _>>()? })
     }
 
     /// Runs all units on a line of the scene, which the projector has driven, and writes its rows.
@@ -100,7 +104,7 @@ impl<'a, W: Complete> Benches<'a, W> {
         count: u32,
     ) -> Result<(), SinkError> {
         for bench in &mut self.benches {
-            let mut line = cases.line(self.setup, bench.unit.description(), count);
+            let mut line = cases.line(self.surface, bench.unit.description(), count);
             bench.rows(&mut line, true)?;
         }
         Ok(())

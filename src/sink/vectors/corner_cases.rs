@@ -3,7 +3,7 @@
 //! the units before would never hand on; what is expected comes from the units themselves.
 
 use crate::frame::Hit;
-use crate::setup::{Back, Setup, TerrainUnits};
+use crate::setup::{Back, SurfaceUnits, TerrainUnits};
 use crate::unit::checker::Checker;
 use crate::unit::divider::Divider;
 use crate::unit::line::Entry;
@@ -119,10 +119,10 @@ impl<W: Complete> CornerCases<W> {
         other
     }
 
-    /// Inputs of a unit of a set-up.
-    pub fn line(&mut self, setup: &Setup<W>, unit: &Description, pixels: u32) -> Line<W> {
-        let divider = setup.divider.as_ref();
-        match (&setup.back, unit.name, divider) {
+    /// Inputs of a unit of a surface.
+    pub fn line(&mut self, units: &SurfaceUnits<W>, unit: &Description, pixels: u32) -> Line<W> {
+        let divider = units.divider.as_ref();
+        match (&units.back, unit.name, divider) {
             (_, "divider", Some(unit)) => self.divider(unit, pixels),
             (Back::Terrain(units), "stepper", _) => self.stepper(units, divider, pixels),
             (Back::Terrain(units), "interpolator", _) => self.interpolator(units, pixels),

@@ -6,7 +6,6 @@ use super::bench::header;
 use super::corner_cases::{CornerCases, RASTER};
 use super::text::{Heading, Register, Sheet, Way, Written};
 use super::wires::{COUNT, bits, registers};
-use crate::setup::Setup;
 use crate::sink::SinkError;
 use crate::unit::coefficient::Bank;
 use crate::unit::projector::Projector;
@@ -30,9 +29,8 @@ fn set<W: Complete>(world: &W, unit: &Projector<W>) -> Vec<Register> {
 
 impl<'a, W: Complete> Scan<'a, W> {
     /// Begins both files.
-    pub fn begin(files: &Files<'a>, setup: &Setup<W>) -> Result<Self, SinkError> {
-        let unit = &setup.projector;
-        let mut header = header(files, &setup.world, unit);
+    pub fn begin(files: &Files<'a>, world: &W, unit: &Projector<W>) -> Result<Self, SinkError> {
+        let mut header = header(files, world, unit);
         header.columns.insert(
             0,
             Heading {
@@ -57,7 +55,7 @@ impl<'a, W: Complete> Scan<'a, W> {
         header.columns = header.registers.iter().map(heading).collect();
         let mut sets = Sheet::begin(files.folder, files.scene, &header)?;
         sets.row(header.registers.iter().map(|c| Some(c.value)))?;
-        Ok(Self { world: setup.world, outputs: unit.outputs(), rows, sets })
+        Ok(Self { world: *world, outputs: unit.outputs(), rows, sets })
     }
 
     /// Writes the first pixels of a line that the projector has driven with a set.
@@ -82,13 +80,14 @@ impl<'a, W: Complete> Scan<'a, W> {
             let other = cases.projector(unit);
             self.sets.row(set(&self.world, &other).iter().map(|c| Some(c.value)))?;
             let mut left = (count - (number_of_set - 1) * RASTER * RASTER) as usize;
-            line.start = other.first_line();
+            let mut start = other.first_line();
             for number in 0..RASTER {
                 line.number = number;
+                line.start = vec![start];
                 other.run(&mut line);
                 self.rows(&line, number_of_set, left)?;
                 left = left.saturating_sub(line.len());
-                other.next_line(&mut line.start);
+                other.next_line(&mut start);
             }
         }
         Ok(())

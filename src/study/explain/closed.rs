@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::quantity::Quantity::{self, Wire as Of};
 use crate::oracle::Sighting;
-use crate::plan::{Plan, SurfacePlan};
+use crate::plan::{SurfacePlan, TerrainPlan};
 use crate::scene::Scene;
 use crate::setup::coefficients::Coefficients;
 use crate::unit::Wire;
@@ -12,7 +12,7 @@ use crate::unit::Wire;
 /// Closed forms of a pixel's registers.
 pub(super) struct Closed<'a> {
     pub scene: &'a Scene,
-    pub plan: &'a Plan,
+    pub surface: &'a SurfacePlan,
     pub coefficients: Coefficients,
     pub direction: DVec3,
     pub eye: DVec3,
@@ -20,11 +20,10 @@ pub(super) struct Closed<'a> {
 }
 
 impl Closed<'_> {
-    fn ramp(&self, top: f64) -> f64 {
-        let SurfacePlan::Terrain(walk) = &self.plan.surface else { return 0.0 };
+    fn ramp(&self, walk: &TerrainPlan) -> f64 {
         let height = walk.scale.to_register(self.sighting.point.y);
         let segments = (self.scene.color.ramp.len() - 1) as f64;
-        if top == 0.0 { 0.0 } else { height / top * segments }
+        if walk.top == 0.0 { 0.0 } else { height / walk.top * segments }
     }
 
     fn light(&self) -> f64 {
@@ -34,7 +33,7 @@ impl Closed<'_> {
     }
 
     pub fn value(&self, quantity: Quantity) -> Option<f64> {
-        match &self.plan.surface {
+        match self.surface {
             SurfacePlan::Terrain(walk) => {
                 let view = self.direction / walk.lengths;
                 let eye = walk.eye;
@@ -58,7 +57,7 @@ impl Closed<'_> {
                     Of(Wire::GroundX) => met.then(|| self.sighting.point.x / walk.lengths.x),
                     Of(Wire::GroundZ) => met.then(|| self.sighting.point.z / walk.lengths.z),
                     Of(Wire::Surface) => met.then(|| walk.scale.to_register(self.sighting.point.y)),
-                    Quantity::RampPlace if met => Some(self.ramp(walk.top)),
+                    Quantity::RampPlace if met => Some(self.ramp(walk)),
                     Of(Wire::Shade) if met => Some(self.light()),
                     Of(Wire::SlopeX) => slope(0),
                     Of(Wire::SlopeZ) => slope(2),

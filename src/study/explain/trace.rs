@@ -4,7 +4,7 @@ use super::quantity::{Axis, Quantity};
 use crate::engine::WithSetup;
 use crate::frame::Hit;
 use crate::processor::Processor;
-use crate::setup::{Back, Setup, TerrainUnits};
+use crate::setup::{Back, Setup, SurfaceUnits, TerrainUnits};
 use crate::unit::interpolator::{AT_THE_HIT, Form, Interpolator};
 use crate::unit::line::{Entry, Work};
 use crate::unit::stepper::Place;
@@ -25,6 +25,8 @@ pub(super) struct Reading {
 #[derive(Clone, Debug)]
 pub(super) struct Trace {
     pub hit: Hit,
+    /// Index of the surface that it shows, whose units are read.
+    pub owner: usize,
     pub steps: u32,
     pub work: Work,
     pub color: [u8; 3],
@@ -94,6 +96,7 @@ impl WithSetup for PixelTrace {
         processor.run_line(&mut line);
         let mut trace = Trace {
             hit: line.hit[0],
+            owner: line.owner[0] as usize,
             steps: line.steps[0],
             work: line.work[0],
             color: line.color[0],
@@ -103,7 +106,8 @@ impl WithSetup for PixelTrace {
             readings: Vec::new(),
             formats: Register::ALL.iter().map(|&register| world.fixed(register)).collect(),
         };
-        if setup.divider.is_some() {
+        let units = &setup.surfaces[trace.owner];
+        if units.divider.is_some() {
             trace.turned_away = match line.entry[0] {
                 Entry::Met => None,
                 Entry::Sky => {
@@ -113,10 +117,10 @@ impl WithSetup for PixelTrace {
             };
         }
         let mut readings = Vec::new();
-        for unit in processor.chain().iter().filter(|unit| !unit.is_idle()) {
+        for unit in units.chain().iter().filter(|unit| !unit.is_idle()) {
             let name = unit.description().name;
             let mut own = Readings { unit: name, readings: &mut readings };
-            self.inside(setup, name, &line, &mut own, &mut trace);
+            self.inside(units, name, &line, &mut own, &mut trace);
             for wire in unit.outputs() {
                 own.wire(&line, wire);
             }
@@ -130,7 +134,7 @@ impl PixelTrace {
     /// What a unit has inside, between the wires.
     fn inside<W: Complete>(
         &self,
-        setup: &Setup<W>,
+        units: &SurfaceUnits<W>,
         unit: &str,
         line: &Line<W>,
         own: &mut Readings<'_>,
@@ -138,7 +142,7 @@ impl PixelTrace {
     ) {
         let site = Site::pixel(self.line, self.column);
         let shown = trace.hit == Hit::Surface;
-        match (&setup.back, unit) {
+        match (&units.back, unit) {
             (Back::Terrain(units), "stepper") => self.ray(units, line, own, trace),
             (Back::Terrain(units), "interpolator") if shown || trace.hit == Hit::Side => {
                 let place = (line.ground_x[0], line.ground_z[0]);

@@ -129,17 +129,20 @@ fn contents(session: &Session, image: &Image, most: i32) -> Vec<Row> {
 /// The scene's own colours.
 fn color(session: &Session, rows: &mut Vec<Row>) {
     let scene = session.scene();
-    match &scene.surface {
-        Surface::Terrain(terrain) => {
-            let ramp = scene.color.ramp.clone();
-            let (low, high) = terrain.range();
-            rows.push(Row::Bar(Box::new(move |t| picture::ramp(&ramp, t))));
-            rows.push(Row::Ends(figure(low), figure(high)));
-            rows.push(Row::Text("height, scene units; lit".into()));
-        }
-        Surface::Plane(plane) => {
-            rows.push(Row::Swatches(scene.color.checker.map(|color| (color, "square")).to_vec()));
-            rows.push(Row::Text(format!("of {} scene units", figure(plane.checker))));
+    for surface in &scene.surfaces {
+        match surface {
+            Surface::Terrain(terrain) => {
+                let ramp = scene.color.ramp.clone();
+                let (low, high) = terrain.range();
+                rows.push(Row::Bar(Box::new(move |t| picture::ramp(&ramp, t))));
+                rows.push(Row::Ends(figure(low), figure(high)));
+                rows.push(Row::Text("height, scene units; lit".into()));
+            }
+            Surface::Plane(plane) => {
+                let squares = scene.color.checker.map(|color| (color, "square"));
+                rows.push(Row::Swatches(squares.to_vec()));
+                rows.push(Row::Text(format!("of {} scene units", figure(plane.checker))));
+            }
         }
     }
 }

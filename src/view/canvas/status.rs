@@ -1,7 +1,7 @@
 //! The status line: craft, machine, time, and the pixel under the cursor.
 
 use crate::frame::Hit;
-use crate::scene::{Deformation, Extent, Scene, Surface};
+use crate::scene::{Deformation, Extent, Scene};
 use crate::study::error::Sheet;
 use crate::study::probe::Probe;
 
@@ -79,7 +79,7 @@ fn craft(scene: &Scene) -> Vec<String> {
 fn work(session: &Session, snapshot: &Snapshot, timed: bool) -> Vec<String> {
     let scene = session.scene();
     let mut items = Vec::new();
-    if let Surface::Terrain(_) = scene.surface {
+    if scene.terrain().is_some() {
         let shape = scene.kernel.shape.name();
         items.push(match scene.kernel.deformation {
             Deformation::None => format!("{shape}, deformation 0"),

@@ -2,14 +2,19 @@
 //!
 //! All lengths here are in cells (x, z) and height units (y).
 
+mod units;
+
 use glam::DVec3;
 
+use super::fitted::UnitFit;
 use super::formats::Formats;
 use super::geometry::Geometry;
-use super::proof::{Finding, Proof, Refusal, in_pixels};
-use super::{LARGEST_PLACE, PlanError, WordClass};
-use crate::scene::{FormatRequest, Outside, Registers, Terrain, WordSize};
+use super::proof::{Proof, Refusal, in_pixels};
+use super::surface::{Planned, Projection};
+use super::words::{LARGEST_PLACE, WordClass};
+use crate::scene::{Deformation, Outside, Scene, Terrain};
 use crate::word::Register;
+pub use units::Fitted;
 
 /// Heights are loaded as `(y − datum) / unit`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,8 +40,10 @@ impl HeightScale {
 /// The walk of a ray over the map.
 #[derive(Clone, Debug)]
 pub struct TerrainPlan {
-    /// Word size of its stock registers.
-    pub words: WordClass,
+    /// The units that may be left out.
+    pub fitted: Fitted,
+    /// Whether the surface is made of 3×3 nodes, not 2×2.
+    stretch: bool,
     /// How heights are loaded.
     pub scale: HeightScale,
     /// Scene units per cell and height unit: x, y, z.
@@ -86,53 +93,16 @@ struct Needs {
 const THIN_LAYER: f64 = 1.0 / 256.0;
 
 impl TerrainPlan {
-    /// Proves a walk in the smaller word size that holds it, or says what is not proved of the
-    /// scene's own formats. These do not change the walk: it is that of the stock words.
-    ///
-    /// # Errors
-    /// If no word size holds it, or the one asked for does not.
+    /// The walk that a word size leads to, proved or not. A scene's own formats do not change it: it
+    /// is that of the stock words beside them.
     pub(super) fn new(
         terrain: &Terrain,
+        scene: &Scene,
         geometry: &Geometry,
-        fineness: u32,
-        asked: WordSize,
-        requests: &[(Registers, FormatRequest)],
-    ) -> Result<(Self, Finding), PlanError> {
-        let of = |words| Self::in_words(terrain, geometry, fineness, words);
-        let stock = |words| -> Result<(Self, String), Refusal> {
-            let walk = of(words);
-            let facts = walk.proof(geometry, &Formats::stock(words)).holds()?;
-            walk.check_counters()?;
-            Ok((walk, facts))
-        };
-        if !requests.is_empty() {
-            let walk = of(WordClass::of_sweep(asked, || stock(WordClass::NARROW).is_ok()));
-            walk.check_counters()?;
-            let formats = Formats { words: walk.words, requests };
-            let finding = walk.proof(geometry, &formats).told(&formats);
-            return Ok((walk, finding));
-        }
-        let (walk, why) = match (asked, stock(WordClass::NARROW)) {
-            (WordSize::Narrow, Err(refusal)) => {
-                return Err(PlanError::Range {
-                    field: "machine.words",
-                    reason: format!("32-bit words cannot be proved: {}", refusal.reason),
-                    remedy: "use words = \"auto\"",
-                });
-            }
-            (WordSize::Narrow, Ok((walk, _))) => (walk, "asked for, and proved".to_owned()),
-            (WordSize::Wide, _) => (stock(WordClass::WIDE)?.0, "asked for".to_owned()),
-            (WordSize::Auto, Ok(found)) => found,
-            (WordSize::Auto, Err(refusal)) => {
-                let why = format!("32 bits are not enough: {}", refusal.reason);
-                (stock(WordClass::WIDE)?.0, why)
-            }
-        };
-        Ok((walk, Finding::proved(why)))
-    }
-
-    /// The walk as a word size leads to it, proved or not.
-    fn in_words(terrain: &Terrain, geometry: &Geometry, fineness: u32, words: WordClass) -> Self {
+        words: WordClass,
+        full: bool,
+    ) -> Self {
+        let fineness = scene.stepper.fineness;
         let (lowest, highest) = terrain.range();
         let nodes = [terrain.map.columns() as f64, terrain.map.rows() as f64];
         let eye_x = geometry.eye.x / terrain.cell.x;
@@ -182,7 +152,8 @@ impl TerrainPlan {
         let bisection_bias =
             libm::log2(32.0 / geometry.finest_angle).ceil() as i32 - fineness as i32;
         Self {
-            words,
+            fitted: Fitted::new(terrain, scene, words, full, from_eye, unit),
+            stretch: scene.kernel.deformation == Deformation::Stretch,
             scale,
             lengths,
             eye: DVec3::new(eye_x, eye_y, eye_z),
@@ -206,7 +177,20 @@ impl TerrainPlan {
         }
     }
 
-    /// What the machine counts in, whatever its formats: places to 2^24, steps below 2^26.
+    fn too_far(&self, reach: &str, (register, limit): (Register, f64)) -> Refusal {
+        // Whatever is deepest under the highest node is to blame for a deep walk.
+        let (field, remedy) = if self.needs.base_is_deep {
+            ("surface.base_depth", "make it smaller")
+        } else {
+            ("camera.position", "move the eye closer to the map")
+        };
+        let reason = format!("{reach}, the registers hold {limit:.0}");
+        Refusal { field, reason, remedy, register }
+    }
+}
+
+impl Planned for TerrainPlan {
+    /// Places to 2^24, steps below 2^26.
     fn check_counters(&self) -> Result<(), Refusal> {
         if self.extreme > LARGEST_PLACE {
             return Err(self.too_far(&positions(self.extreme), (Register::GroundX, LARGEST_PLACE)));
@@ -222,18 +206,6 @@ impl TerrainPlan {
         Ok(())
     }
 
-    fn too_far(&self, reach: &str, (register, limit): (Register, f64)) -> Refusal {
-        // Whatever is deepest under the highest node is to blame for a deep walk.
-        let (field, remedy) = if self.needs.base_is_deep {
-            ("surface.base_depth", "make it smaller")
-        } else {
-            ("camera.position", "move the eye closer to the map")
-        };
-        let reason = format!("{reach}, the registers hold {limit:.0}");
-        Refusal { field, reason, remedy, register }
-    }
-
-    /// Ranges and roundings of the walk in registers of these formats.
     fn proof(&self, geometry: &Geometry, formats: &Formats<'_>) -> Proof {
         use Register as R;
         let needs = &self.needs;
@@ -305,7 +277,25 @@ impl TerrainPlan {
         };
         facts +=
             &format!(", a step's rounding is {}", in_pixels(geometry.finest_angle / direction));
-        Proof { facts, refusals }
+        Proof { facts, refusals, reservations: Vec::new() }
+    }
+
+    fn projection(&self, geometry: &Geometry) -> Projection {
+        let view = geometry.view.scaled(self.lengths.recip());
+        Projection {
+            view,
+            // The slab's top: n = y. Rays that start at the eye have no use for it.
+            g: view.dot(DVec3::Y),
+            f: if self.from_eye { -1.0 } else { self.top - self.eye.y },
+            eye: [self.eye.x, self.eye.z],
+            range: self.range,
+            divides: self.fitted.divider.fitted,
+            steps: true,
+        }
+    }
+
+    fn units(&self, geometry: &Geometry, _: bool) -> Vec<UnitFit> {
+        self.unit_fits(geometry)
     }
 }
 

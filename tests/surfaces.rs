@@ -133,5 +133,5 @@ fn random_planes_are_drawn_alike_and_as_the_oracle_says() {
     let [pixels, missed, later] = [pixels, missed, later].map(|count| count.load(Relaxed));
     println!("{pixels} pixels, {missed} not as the oracle says, {later} of a later plane");
     assert!(pixels > 40_000 && later > pixels / 10);
-    assert!(missed * 1000 < pixels, "{missed} of {pixels} pixels are not as the oracle says");
+    assert!(missed * 10_000 < pixels, "{missed} of {pixels} pixels are not as the oracle says");
 }

@@ -63,6 +63,12 @@ impl UnitFit {
         Self { name: "projector", fit: Fit::always(why), registers, saves: "" }
     }
 
+    /// The register by which several surfaces compete.
+    pub(super) fn depth() -> Self {
+        let fit = Fit::always("several surfaces: the nearest shows");
+        Self { name: "depth", fit, registers: &[Register::Denominator], saves: "" }
+    }
+
     /// The divider.
     pub(super) fn divider(fit: Fit) -> Self {
         use Register::{Denominator, GroundX, GroundZ};

@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 
-use super::Plan;
 use super::fitted::UnitFit;
+use super::{Plan, SurfacePlan};
 use crate::word::{Register, World};
 
 /// One unit of the plan.
@@ -39,7 +39,11 @@ pub fn units<W: World>(plan: &Plan, world: &W) -> Vec<UnitPlan> {
             saves: (!fit.fitted).then(|| saves.to_owned()),
         }
     };
-    let units =
-        plan.surfaces.iter().flat_map(|surface| surface.planned().units(&plan.geometry, plan.full));
-    units.map(unit).collect()
+    let of_surface = |surface: &SurfacePlan| {
+        let mut units = surface.planned().units(&plan.geometry, plan.full);
+        // One surface has none, and nothing to say of it.
+        units.extend((plan.surfaces.len() > 1).then(UnitFit::depth));
+        units
+    };
+    plan.surfaces.iter().flat_map(of_surface).map(unit).collect()
 }

@@ -108,13 +108,27 @@ impl<T: Copy> HeightMemory<T> {
     /// Whether the map covers the cell whose corner is node (i, j).
     #[inline(always)]
     pub fn contains(&self, i: i32, j: i32) -> bool {
-        match self.edge {
-            // One unsigned comparison per axis.
-            Edge::Ends => {
-                ((i as u32) < (self.columns - 1) as u32) & ((j as u32) < (self.rows - 1) as u32)
-            }
-            Edge::Clamps | Edge::Wraps => true,
+        self.edge != Edge::Ends || self.is_cell(i, j)
+    }
+
+    /// Whether nodes (i, j) to (i+1, j+1) are all nodes of the map: one unsigned comparison per axis.
+    #[inline(always)]
+    fn is_cell(&self, i: i32, j: i32) -> bool {
+        ((i as u32) < (self.columns - 1) as u32) & ((j as u32) < (self.rows - 1) as u32)
+    }
+
+    /// Nodes (i, j), (i, j+1), (i+1, j), (i+1, j+1).
+    #[inline(always)]
+    pub fn corners(&self, i: i32, j: i32) -> [T; 4] {
+        if self.is_cell(i, j) {
+            // Nothing to clamp, and one test of the address for all four.
+            let columns = self.columns as usize;
+            let rows = &self.nodes[j as usize * columns + i as usize..][..columns + 2];
+            return [rows[0], rows[columns], rows[1], rows[columns + 1]];
         }
+        let (west, east) = (self.column(i), self.column(i + 1));
+        let (north, south) = (self.row(j), self.row(j + 1));
+        [self.at(west, north), self.at(west, south), self.at(east, north), self.at(east, south)]
     }
 
     /// Column address of index i.

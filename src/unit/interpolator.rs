@@ -178,15 +178,7 @@ impl<W: Interpolating> Interpolator<W> {
     #[inline(always)]
     pub fn nodes(&self, x: W::Ground, z: W::Ground, site: Site) -> [W::Height; 4] {
         let [i, j] = cell::<W>(x, z, site);
-        let heights = &*self.heights;
-        let (west, east) = (heights.column(i), heights.column(i + 1));
-        let (north, south) = (heights.row(j), heights.row(j + 1));
-        [
-            heights.at(west, north),
-            heights.at(west, south),
-            heights.at(east, north),
-            heights.at(east, south),
-        ]
+        self.heights.corners(i, j)
     }
 
     /// Whether a place is within the edges of the map.

@@ -73,7 +73,7 @@ module terraline #(
 );
   localparam int PROJECTOR = 0, DIVIDER = 1, STEPPER = 2, INTERPOLATOR = 3, SHADER = 4, FRAME = 5;
 
-  // ---- Generated: the bank of coefficients
+  // ---- Coefficients
   logic [15:0] columns;
   logic [15:0] lines;
   logic signed [W-1:0] view_x_start;
@@ -93,54 +93,10 @@ module terraline #(
   logic signed [7:0] ratio_shift_x;
   logic [5:0] ratio_bits_x;
   logic from_eye;
-  logic signed [W-1:0] eye_y;
-  logic signed [W-1:0] highest;
-  logic signed [W-1:0] base;
-  logic [2:0] fineness;
-  logic [25:0] last;
-  logic bisection_fixed;
-  logic signed [7:0] bisection_bias;
-  logic [5:0] bisection_cap;
-  logic skipping;
-  logic [4:0] pyramid_top;
-  logic beyond_sky;
-  logic [CELL-1:0] map_columns;
-  logic [CELL-1:0] map_rows;
-  logic [1:0] map_edge;
-  logic sides;
-  logic void_bits;
-  logic [1:0] form;
-  logic [5:0] deformation_shift;
-  logic [4:0] kernel_log2;
-  logic slope_scaled;
-  logic signed [W-1:0] slope_scale_x;
-  logic signed [W-1:0] slope_scale_z;
-  logic [6:0] memory_latency;
-  logic [23:0] sky_color;
-  logic [23:0] out_of_range_color;
-  logic [23:0] side_color;
-  logic lit;
-  logic signed [W-1:0] light_x;
-  logic signed [W-1:0] light_y;
-  logic signed [W-1:0] light_z;
-  logic signed [W-1:0] ambient;
-  logic signed [7:0] ramp_exponent;
-  logic signed [W-1:0] ramp_gain;
-  logic [3:0] ramp_last;
-  logic signed [W-1:0] mean_red;
-  logic signed [W-1:0] mean_green;
-  logic signed [W-1:0] mean_blue;
-  logic signed [W-1:0] swing_red;
-  logic signed [W-1:0] swing_green;
-  logic signed [W-1:0] swing_blue;
-  logic signed [7:0] contrast_exponent;
-  logic signed [W-1:0] contrast_gain;
-  logic full_from_fitted;
-  logic signed [W-1:0] full_from;
 
-  registers #(
+  registers_front #(
       .WIDE(WIDE)
-  ) registers (
+  ) front (
       .clock(clock),
       .load(load && load_space == 3'd0),
       .load_address(load_address[15:0]),
@@ -163,53 +119,8 @@ module terraline #(
       .eye_z(eye_z),
       .ratio_shift_x(ratio_shift_x),
       .ratio_bits_x(ratio_bits_x),
-      .from_eye(from_eye),
-      .eye_y(eye_y),
-      .highest(highest),
-      .base(base),
-      .fineness(fineness),
-      .last(last),
-      .bisection_fixed(bisection_fixed),
-      .bisection_bias(bisection_bias),
-      .bisection_cap(bisection_cap),
-      .skipping(skipping),
-      .pyramid_top(pyramid_top),
-      .beyond_sky(beyond_sky),
-      .map_columns(map_columns),
-      .map_rows(map_rows),
-      .map_edge(map_edge),
-      .sides(sides),
-      .void_bits(void_bits),
-      .form(form),
-      .deformation_shift(deformation_shift),
-      .kernel_log2(kernel_log2),
-      .slope_scaled(slope_scaled),
-      .slope_scale_x(slope_scale_x),
-      .slope_scale_z(slope_scale_z),
-      .memory_latency(memory_latency),
-      .sky_color(sky_color),
-      .out_of_range_color(out_of_range_color),
-      .side_color(side_color),
-      .lit(lit),
-      .light_x(light_x),
-      .light_y(light_y),
-      .light_z(light_z),
-      .ambient(ambient),
-      .ramp_exponent(ramp_exponent),
-      .ramp_gain(ramp_gain),
-      .ramp_last(ramp_last),
-      .mean_red(mean_red),
-      .mean_green(mean_green),
-      .mean_blue(mean_blue),
-      .swing_red(swing_red),
-      .swing_green(swing_green),
-      .swing_blue(swing_blue),
-      .contrast_exponent(contrast_exponent),
-      .contrast_gain(contrast_gain),
-      .full_from_fitted(full_from_fitted),
-      .full_from(full_from)
+      .from_eye(from_eye)
   );
-  // ---- End of what is generated
 
   // ---- Raster scan and projector
   logic running, last_column, step;
@@ -290,6 +201,105 @@ module terraline #(
   assign waits[DIVIDER] = divider_valid && !divider_ready;
 
   if (TERRAIN == 1) begin : terrain
+    // ---- Coefficients of a height map
+    logic [CELL-1:0] map_columns;
+    logic [CELL-1:0] map_rows;
+    logic [1:0] map_edge;
+    logic void_bits;
+    logic [1:0] form;
+    logic [5:0] deformation_shift;
+    logic [4:0] kernel_log2;
+    logic slope_scaled;
+    logic signed [W-1:0] slope_scale_x;
+    logic signed [W-1:0] slope_scale_z;
+    logic [6:0] memory_latency;
+
+    registers_map #(
+        .WIDE(WIDE)
+    ) map (
+        .clock(clock),
+        .load(load && load_space == 3'd0),
+        .load_address(load_address[15:0]),
+        .load_data(load_data),
+        .map_columns(map_columns),
+        .map_rows(map_rows),
+        .map_edge(map_edge),
+        .void_bits(void_bits),
+        .form(form),
+        .deformation_shift(deformation_shift),
+        .kernel_log2(kernel_log2),
+        .slope_scaled(slope_scaled),
+        .slope_scale_x(slope_scale_x),
+        .slope_scale_z(slope_scale_z),
+        .memory_latency(memory_latency)
+    );
+
+    logic signed [W-1:0] eye_y;
+    logic signed [W-1:0] highest;
+    logic signed [W-1:0] base;
+    logic [2:0] fineness;
+    logic [25:0] last;
+    logic bisection_fixed;
+    logic signed [7:0] bisection_bias;
+    logic [5:0] bisection_cap;
+    logic skipping;
+    logic [4:0] pyramid_top;
+    logic beyond_sky;
+    logic sides;
+
+    registers_walk #(
+        .WIDE(WIDE)
+    ) walk (
+        .clock(clock),
+        .load(load && load_space == 3'd0),
+        .load_address(load_address[15:0]),
+        .load_data(load_data),
+        .eye_y(eye_y),
+        .highest(highest),
+        .base(base),
+        .fineness(fineness),
+        .last(last),
+        .bisection_fixed(bisection_fixed),
+        .bisection_bias(bisection_bias),
+        .bisection_cap(bisection_cap),
+        .skipping(skipping),
+        .pyramid_top(pyramid_top),
+        .beyond_sky(beyond_sky),
+        .sides(sides)
+    );
+
+    logic [23:0] sky_color;
+    logic [23:0] out_of_range_color;
+    logic [23:0] side_color;
+    logic lit;
+    logic signed [W-1:0] light_x;
+    logic signed [W-1:0] light_y;
+    logic signed [W-1:0] light_z;
+    logic signed [W-1:0] ambient;
+    logic signed [7:0] ramp_exponent;
+    logic signed [W-1:0] ramp_gain;
+    logic [3:0] ramp_last;
+
+    registers_shader #(
+        .WIDE(WIDE)
+    ) colors (
+        .clock(clock),
+        .load(load && load_space == 3'd0),
+        .load_address(load_address[15:0]),
+        .load_data(load_data),
+        .sky_color(sky_color),
+        .out_of_range_color(out_of_range_color),
+        .side_color(side_color),
+        .lit(lit),
+        .light_x(light_x),
+        .light_y(light_y),
+        .light_z(light_z),
+        .ambient(ambient),
+        .ramp_exponent(ramp_exponent),
+        .ramp_gain(ramp_gain),
+        .ramp_last(ramp_last)
+    );
+
     // ---- Stepper, with an interpolation of its own for its samples
     logic ray_valid, ray_ready, walk_valid, walk_ready;
     logic [W-1:0] ray_x, ray_y, ray_z;
@@ -522,6 +532,41 @@ module terraline #(
     assign takes[SHADER] = surface_valid && surface_ready;
     assign waits[SHADER] = surface_valid && !surface_ready;
   end else begin : plane
+    // ---- Coefficients of a plane
+    logic [23:0] sky_color;
+    logic [23:0] out_of_range_color;
+    logic signed [W-1:0] mean_red;
+    logic signed [W-1:0] mean_green;
+    logic signed [W-1:0] mean_blue;
+    logic signed [W-1:0] swing_red;
+    logic signed [W-1:0] swing_green;
+    logic signed [W-1:0] swing_blue;
+    logic signed [7:0] contrast_exponent;
+    logic signed [W-1:0] contrast_gain;
+    logic full_from_fitted;
+    logic signed [W-1:0] full_from;
+
+    registers_checker #(
+        .WIDE(WIDE)
+    ) colors (
+        .clock(clock),
+        .load(load && load_space == 3'd0),
+        .load_address(load_address[15:0]),
+        .load_data(load_data),
+        .sky_color(sky_color),
+        .out_of_range_color(out_of_range_color),
+        .mean_red(mean_red),
+        .mean_green(mean_green),
+        .mean_blue(mean_blue),
+        .swing_red(swing_red),
+        .swing_green(swing_green),
+        .swing_blue(swing_blue),
+        .contrast_exponent(contrast_exponent),
+        .contrast_gain(contrast_gain),
+        .full_from_fitted(full_from_fitted),
+        .full_from(full_from)
+    );
+
     // ---- Checker
     logic checker_ready;
 

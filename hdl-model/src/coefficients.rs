@@ -5,19 +5,128 @@ use terraline::setup::Setup;
 use terraline::unit::coefficient::{Bank, Coefficient, Kind};
 use terraline::word::{Complete, Readout, Register};
 
-/// Coefficients that the RTL has no register for: it has one ratio for both axes, which have one
-/// format in stock words, and ones and the size of the root's table are constants of its modules.
-const CONSTANT: [Coefficient; 5] = [
-    Coefficient::RatioShiftZ,
-    Coefficient::RatioBitsZ,
-    Coefficient::WeightOne,
-    Coefficient::ShadeOne,
-    Coefficient::RsqrtLog2,
-];
+/// A part of the machine that holds its coefficients in a bank of registers of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Raster scan, projector and divider.
+    Front,
+    /// The height map and its kernel, for whatever interpolates.
+    Map,
+    /// The stepper.
+    Walk,
+    /// The shader of a height map.
+    Shader,
+    /// The checker of a plane.
+    Checker,
+}
+
+impl Part {
+    /// All parts, in the order of the chain.
+    pub const ALL: [Self; 5] = [Self::Front, Self::Map, Self::Walk, Self::Shader, Self::Checker];
+
+    /// Module of its bank.
+    pub fn module(self) -> &'static str {
+        match self {
+            Self::Front => "registers_front",
+            Self::Map => "registers_map",
+            Self::Walk => "registers_walk",
+            Self::Shader => "registers_shader",
+            Self::Checker => "registers_checker",
+        }
+    }
+
+    /// What the coefficients are about.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Front => "raster scan, projector and divider",
+            Self::Map => "a height map, its kernel and its memory",
+            Self::Walk => "the stepper",
+            Self::Shader => "the shader of a height map",
+            Self::Checker => "the checker of a plane",
+        }
+    }
+
+    /// Its coefficients.
+    pub fn coefficients(self) -> impl Iterator<Item = Coefficient> {
+        all().filter(move |&coefficient| parts(coefficient).contains(&self))
+    }
+}
+
+/// The parts that have a register for a coefficient, at most one of them in a machine.
+fn parts(coefficient: Coefficient) -> &'static [Part] {
+    use Coefficient as C;
+    match coefficient {
+        C::Columns
+        | C::Lines
+        | C::ViewXStart
+        | C::ViewXPerLine
+        | C::ViewXPerColumn
+        | C::ViewYStart
+        | C::ViewYPerLine
+        | C::ViewYPerColumn
+        | C::ViewZStart
+        | C::ViewZPerLine
+        | C::ViewZPerColumn
+        | C::DenominatorStart
+        | C::DenominatorPerLine
+        | C::DenominatorPerColumn
+        | C::EyeX
+        | C::EyeZ
+        | C::RatioShiftX
+        | C::RatioBitsX
+        | C::FromEye => &[Part::Front],
+        C::EyeY
+        | C::Highest
+        | C::Base
+        | C::Fineness
+        | C::Last
+        | C::BisectionFixed
+        | C::BisectionBias
+        | C::BisectionCap
+        | C::Skipping
+        | C::PyramidTop
+        | C::BeyondSky
+        | C::Sides => &[Part::Walk],
+        C::MapColumns
+        | C::MapRows
+        | C::MapEdge
+        | C::VoidBits
+        | C::Form
+        | C::DeformationShift
+        | C::KernelLog2
+        | C::SlopeScaled
+        | C::SlopeScaleX
+        | C::SlopeScaleZ
+        | C::MemoryLatency => &[Part::Map],
+        C::SkyColor | C::OutOfRangeColor => &[Part::Shader, Part::Checker],
+        C::SideColor
+        | C::Lit
+        | C::LightX
+        | C::LightY
+        | C::LightZ
+        | C::Ambient
+        | C::RampExponent
+        | C::RampGain
+        | C::RampLast => &[Part::Shader],
+        C::MeanRed
+        | C::MeanGreen
+        | C::MeanBlue
+        | C::SwingRed
+        | C::SwingGreen
+        | C::SwingBlue
+        | C::ContrastExponent
+        | C::ContrastGain
+        | C::FullFromFitted
+        | C::FullFrom => &[Part::Checker],
+        // There is one ratio for both axes, which have one format in stock words; ones and the size of
+        // the root's table are constants of the modules.
+        C::RatioShiftZ | C::RatioBitsZ | C::WeightOne | C::ShadeOne | C::RsqrtLog2 => &[],
+    }
+}
 
 /// All coefficients of the RTL; the place in this list is the address.
 pub fn all() -> impl Iterator<Item = Coefficient> {
-    Coefficient::ALL.iter().copied().filter(|coefficient| !CONSTANT.contains(coefficient))
+    Coefficient::ALL.iter().copied().filter(|&coefficient| !parts(coefficient).is_empty())
 }
 
 /// Bits of a coefficient.

@@ -10,7 +10,7 @@ use terraline::unit::description::SHADER_TIMING;
 use terraline::unit::{divider, interpolator, kernel_rom, projector, stepper};
 use terraline::word::Register;
 
-use crate::coefficients::{self, Bits, bits};
+use crate::coefficients::{self, Bits, Part, bits};
 
 const HEAD: &str = "// Generated from the register table (src/setup/table.rs) and the lists of \
                     coefficients\n// (src/unit/coefficient.rs) and cycles (src/unit) by `cargo run \
@@ -79,19 +79,21 @@ pub fn package() -> String {
     out
 }
 
-/// rtl/registers.sv: one register per coefficient.
-pub fn registers() -> String {
+/// The bank of a part's coefficients, as a file of `rtl/`: one register per coefficient.
+pub fn registers(part: Part) -> String {
     let mut out = format!(
-        "{HEAD}\n// The coefficients of a frame. Loaded before `start`, one per cycle; they do not \
-         change within a\n// frame.\nmodule registers #(\n    parameter int WIDE = 0  // words of \
-         64 bits, not 32\n) (\n    \
+        "{HEAD}\n// The coefficients of {}. Loaded before `start`, one per cycle.\n//\n\
+         // Never reset, never changed within a frame.\nmodule {} #(\n    \
+         parameter int WIDE = 0  // words of 64 bits, not 32\n) (\n    \
          input logic clock,\n    \
          input logic load,  // take `load_data` at this edge\n    \
-         input logic [15:0] load_address,  // terraline_pkg::ADDRESS_...\n    \
-         input logic [(WIDE == 1 ? 64 : 32)-1:0] load_data,  // in the low bits\n"
+         input logic [15:0] load_address,  // terraline_pkg::ADDRESS_..., perhaps of another bank\n    \
+         input logic [(WIDE == 1 ? 64 : 32)-1:0] load_data,  // in the low bits\n",
+        part.about(),
+        part.module(),
     );
-    let last = coefficients::all().last();
-    for coefficient in coefficients::all() {
+    let last = part.coefficients().last();
+    for coefficient in part.coefficients() {
         let comma = if Some(coefficient) == last { "" } else { "," };
         let _ = writeln!(
             out,
@@ -101,11 +103,14 @@ pub fn registers() -> String {
             coefficient.meaning()
         );
     }
+    out.push_str(");\n");
+    if part.coefficients().any(|coefficient| bits(coefficient) == Bits::Cell) {
+        out.push_str("  localparam int CELL = WIDE == 1 ? 26 : 12;\n\n");
+    }
     out.push_str(
-        ");\n  localparam int CELL = WIDE == 1 ? 26 : 12;\n\n  always_ff @(posedge clock) begin\n    \
-         if (load) begin\n      case (load_address)\n",
+        "  always_ff @(posedge clock) begin\n    if (load) begin\n      case (load_address)\n",
     );
-    for coefficient in coefficients::all() {
+    for coefficient in part.coefficients() {
         let bits = match bits(coefficient) {
             Bits::Word => String::new(),
             Bits::Cell => "[CELL-1:0]".into(),
@@ -121,38 +126,6 @@ pub fn registers() -> String {
     }
     out.push_str("        default: ;\n      endcase\n    end\n  end\nendmodule\n");
     out
-}
-
-/// Where the generated part of rtl/terraline.sv begins and ends.
-const BANK: [&str; 2] =
-    ["  // ---- Generated: the bank of coefficients\n", "  // ---- End of what is generated\n"];
-
-/// rtl/terraline.sv, its bank of coefficients made anew.
-///
-/// # Errors
-/// If the marks of the generated part are missing.
-pub fn with_bank(machine: &str) -> Result<String, String> {
-    let missing = || format!("rtl/terraline.sv has no line `{}`", BANK[0].trim());
-    let (before, rest) = machine.split_once(BANK[0]).ok_or_else(missing)?;
-    let (_, after) = rest.split_once(BANK[1]).ok_or_else(missing)?;
-    let mut bank = String::new();
-    for coefficient in coefficients::all() {
-        let range = range(coefficient)
-            .replace("(WIDE == 1 ? 64 : 32)", "W")
-            .replace("(WIDE == 1 ? 26 : 12)", "CELL");
-        let _ = writeln!(bank, "  logic {range}{};", coefficient.name());
-    }
-    bank.push_str(
-        "\n  registers #(\n      .WIDE(WIDE)\n  ) registers (\n      .clock(clock),\n      \
-         .load(load && load_space == 3'd0),\n      .load_address(load_address[15:0]),\n      \
-         .load_data(load_data)",
-    );
-    for coefficient in coefficients::all() {
-        let name = coefficient.name();
-        let _ = write!(bank, ",\n      .{name}({name})");
-    }
-    bank.push_str("\n  );\n");
-    Ok([before, BANK[0], &bank, BANK[1], after].concat())
 }
 
 fn range(coefficient: Coefficient) -> String {

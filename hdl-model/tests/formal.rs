@@ -8,7 +8,7 @@ mod proof;
 use std::collections::BTreeSet;
 
 use proof::{Proof, Twin, yosys};
-use terraline_hdl::netlist::yosys::missing;
+use terraline_hdl::netlist::yosys::{missing, read, sources};
 use terraline_hdl::skipped_without;
 
 /// A harness over modules without registers.
@@ -120,10 +120,8 @@ fn wrong_products_are_found() {
 fn multipliers(wide: i64, terrain: i64, stretch: i64) -> (BTreeSet<Shape>, BTreeSet<Shape>) {
     let machine =
         format!("-chparam WIDE {wide} -chparam TERRAIN {terrain} -chparam STRETCH {stretch}");
-    let (done, text) = yosys(&format!(
-        "read_verilog -sv rtl/terraline_pkg.sv\nread_verilog -sv rtl/[!t]*.sv rtl/terraline.sv\n\
-         hierarchy -check -top terraline {machine}"
-    ));
+    let sources = read(&sources().expect("sources"), "terraline", &[]);
+    let (done, text) = yosys(&format!("{sources}hierarchy -check -top terraline {machine}"));
     assert!(done, "Yosys elaborates the machine:\n{text}");
     let mut found = [("product", BTreeSet::new()), ("partial_sum", BTreeSet::new())];
     let mut lines = text.lines().peekable();

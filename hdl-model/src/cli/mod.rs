@@ -11,6 +11,7 @@ use std::time::Duration;
 use clap::{Parser, Subcommand};
 use terraline::cli::{Stop, report};
 
+use crate::coefficients::Part;
 use crate::{package, sizes};
 
 /// The processor in SystemVerilog, and its comparison with the emulator.
@@ -52,21 +53,15 @@ enum Command {
     },
 }
 
-/// The generated files of `rtl/`, with their texts; of the machine, a part is generated.
-///
-/// # Errors
-/// If the machine cannot be read, or does not say where the generated part belongs.
-pub fn generated() -> Result<[(PathBuf, String); 3], String> {
-    let rtl = Path::new(env!("CARGO_MANIFEST_DIR")).join("rtl");
-    let file = |name: &str| rtl.join(name);
-    let machine = file("terraline.sv");
-    let text = std::fs::read_to_string(&machine)
-        .map_err(|error| format!("{}: {error}", machine.display()))?;
-    Ok([
-        (file("terraline_pkg.sv"), package::package()),
-        (file("registers.sv"), package::registers()),
-        (machine, package::with_bank(&text)?),
-    ])
+/// The generated files of `rtl/`, with their texts.
+pub fn generated() -> Vec<(PathBuf, String)> {
+    let file = |module: &str| {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("rtl").join(module).with_extension("sv")
+    };
+    let mut files = vec![(file("terraline_pkg"), package::package())];
+    let banks = Part::ALL.iter();
+    files.extend(banks.map(|&part| (file(part.module()), package::registers(part))));
+    files
 }
 
 /// Runs the command line of this process.
@@ -96,7 +91,7 @@ pub fn main() -> ExitCode {
 }
 
 fn generate() -> Result<(), Stop> {
-    for (path, text) in generated().map_err(Stop::BadInput)? {
+    for (path, text) in generated() {
         std::fs::write(&path, text)
             .map_err(|error| Stop::BadInput(format!("{}: {error}", path.display())))?;
         report::print(&path.display().to_string());

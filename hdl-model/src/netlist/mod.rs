@@ -63,7 +63,6 @@ pub const DESIGNS: &[Design] = &[
     Design::new("interpolator, 3×3", "interpolator", &[("SLOPES", 1), ("STRETCH", 1)]),
     Design::new("surface_stage", "surface_stage", &[]).quick(),
     Design::new("shader", "shader", &[]),
-    Design::new("registers", "registers", &[]).quick(),
     Design::new("plane, serial", "terraline", &[("TERRAIN", 0), ("SERIAL", 1)]),
     Design::new("plane, pipelined", "terraline", &[("TERRAIN", 0)]),
     Design::new("terrain, pipelined", "terraline", &[]),

@@ -65,18 +65,20 @@ fn thin_rasters_are_drawn_alike() {
 fn level_lines_are_drawn_alike() {
     // A line that looks almost along the ground has a denominator close to zero in every pixel.
     let mut wrong = Vec::new();
+    let mut met = 0;
     for name in super::support::SCENES {
         for (columns, lines) in [(1, 1), (64, 1), (63, 3), (1, 5)] {
             for pitch in [0.0, -1e-12, -1e-6, -1e-3, -0.05, 0.05] {
                 for roll in [0.0, 180.0, 0.001, 90.0] {
                     let scene = turned(builtin(name, columns, lines), 30.0, pitch, roll);
                     let what = format!("{name}, {columns}x{lines}, pitch {pitch}, roll {roll}");
-                    check(&what, &scene, &mut wrong);
+                    met += check(&what, &scene, &mut wrong);
                 }
             }
         }
     }
     none(&wrong);
+    assert!(met > 10_000, "{met} pixels met something");
 }
 
 #[test]

@@ -129,6 +129,10 @@ fn random_attitudes_keep_their_bounds() {
         }
     }
     measurements.finish("random attitudes", &[&VIEW[..], &LAST, &ENTRY].concat(), 60);
+    // Bounds are about as large as they must be: one that nothing comes near would bound nothing.
+    for (name, measured) in &measurements.by_name {
+        assert!(measured.ratio > 0.4, "{name}: {} of the bound", measured.ratio);
+    }
 }
 
 #[test]
@@ -150,6 +154,26 @@ fn random_scenes_keep_their_bounds() {
     result.unwrap();
     let measurements = measurements.into_inner().expect("one thread");
     measurements.finish("random scenes", &[&VIEW[..], &LAST, &ENTRY].concat(), 100);
+}
+
+#[test]
+fn an_explanation_is_of_its_pixel() {
+    let scene = builtin("flight", 64, 48);
+    let plan = support::plan(&scene);
+    let machine = support::machine(&scene, &plan).expect("a machine");
+    let frame = support::drawn(&scene, &plan).expect("a frame");
+    let buffers = frame.buffers.as_ref().expect("asked for");
+    let mut skip_tests = 0;
+    for at in (0..frame.hit.len()).step_by(37) {
+        let found = machine.explain((at % 64) as u32, (at / 64) as u32).expect("a pixel");
+        assert_eq!((found.hit, found.color), (frame.hit[at].name(), frame.color[at]), "{at}");
+        assert_eq!(found.skip_tests, buffers.trials[at], "{at}");
+        if found.hit == "surface" {
+            assert_eq!(found.steps, buffers.steps[at], "{at}");
+            skip_tests += found.skip_tests;
+        }
+    }
+    assert!(skip_tests > 100, "{skip_tests} skip tests");
 }
 
 #[test]

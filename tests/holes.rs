@@ -204,10 +204,11 @@ fn errors_near_holes_are_those_of_any_ground() {
         let report = ErrorReport::new(&sample, &errors, 1.0);
         let total = report.total_px.expect("pixels");
         println!("{shape:?} {deformation:?}: {report:?}");
-        assert!(report.same_sheet > 5000);
-        assert!(report.silhouettes < sample.len() / 100, "{} silhouettes", report.silhouettes);
-        assert!(total.median < 1.0 / 32.0 && total.p999 < 0.25, "{total:?}");
-        assert!(report.color_within_2 > 0.99, "{}", report.color_within_2);
+        // Limits are about twice what is measured.
+        assert!(report.same_sheet > 10_000);
+        assert!(report.silhouettes < sample.len() / 120, "{} silhouettes", report.silhouettes);
+        assert!(total.median < 0.003 && total.p999 < 0.015, "{total:?}");
+        assert!(report.color_within_2 > 0.992, "{}", report.color_within_2);
     }
 }
 

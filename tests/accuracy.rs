@@ -8,7 +8,7 @@ mod exact;
 
 use glam::{DVec2, DVec3};
 use support::recipe::{Eye, recipes};
-use support::{SHAPES, builtin, loaded, machine, runner};
+use support::{SHAPES, builtin, loaded, machine, map, over, runner, terrain};
 use terraline::engine::Engine;
 use terraline::frame::{Buffers, Hit};
 use terraline::plan::Plan;
@@ -143,6 +143,18 @@ fn buffers_are_those_of_the_oracle() {
         keeps("place", 6e-5, 3e-4, &|at| a.point(at).distance(b.point(at)) / b.lambda[at]);
         let normal = |of: &Buffers, at: usize| DVec3::from(of.normal[at]);
         keeps("normal", 1.3e-3, 0.5, &|at| normal(&a, at).distance(normal(&b, at)));
+    }
+}
+
+#[test]
+fn eyes_just_above_the_highest_node_keep_their_bounds() {
+    for up in [1e-12, 1.0 / 300.0, 1.0 / 200.0] {
+        let hills = map(40, 40, |i, j| ((i * 7 + j * 13) % 19) as f32 / 8.0);
+        let mut scene = over(hills, 320, 240);
+        scene.camera.position = DVec3::new(20.3, terrain(&mut scene).range().1 + up, 3.2);
+        let report = errors(&scene, 64);
+        assert!(report.same_sheet > 2000, "{} on the same sheet", report.same_sheet);
+        within("total", report.total_px, 0.006, 0.035);
     }
 }
 

@@ -213,7 +213,7 @@ fn errors_near_holes_are_those_of_any_ground() {
 }
 
 #[test]
-fn rules_fill_before_anything_is_drawn() {
+fn a_filled_map_has_no_holes_and_no_bits_for_them() {
     // The reader carries the rule out; a scene made by hand has the map that it asks for.
     let mut scene = over(flat(|i, j| (i, j) == (5, 5)), 24, 20);
     scene.camera.position = DVec3::new(5.0, 8.0, 5.0);

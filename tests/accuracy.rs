@@ -152,6 +152,8 @@ fn eyes_just_above_the_highest_node_keep_their_bounds() {
         let hills = map(40, 40, |i, j| ((i * 7 + j * 13) % 19) as f32 / 8.0);
         let mut scene = over(hills, 320, 240);
         scene.camera.position = DVec3::new(20.3, terrain(&mut scene).range().1 + up, 3.2);
+        // Where the layer is thin, rays start at the eye.
+        assert_eq!(support::plan(&scene).fitted.divider, up > 1.0 / 256.0);
         let report = errors(&scene, 64);
         assert!(report.same_sheet > 2000, "{} on the same sheet", report.same_sheet);
         within("total", report.total_px, 0.006, 0.035);

@@ -5,6 +5,7 @@ mod support;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
+use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 use support::recipe::recipes;
 use support::{builtin, runner};
@@ -214,11 +215,13 @@ fn bounds_follow_their_equations() {
     // An exact numerator over an exact denominator is floored, and the eye rounded.
     assert_eq!(bounds::entry(format, 3.0, 0.5, 2, 0.0, 0.0), 1.5 * ulp);
     assert_eq!(bounds::entry(format, -3.0, 0.5, 1, ulp, 0.0), 5.5 * ulp);
-    // The finest angle of a screen is that of a pixel in its corners.
-    let (half, edge) = (30_f64.to_radians().tan(), 30_f64.to_radians().tan() * 639.0 / 640.0);
-    let finest = 2.0 * half / 640.0 / (1.0 + 2.0 * edge * edge).sqrt();
+    // The finest angle of a screen is that of a pixel in its farthest corner.
+    let half = 30_f64.to_radians().tan();
+    let corner = DVec3::new(1.0, half * 639.0 / 640.0 + 0.2, half * 639.0 / 640.0 + 0.1);
+    let finest = 2.0 * half / 640.0 / corner.length();
     let mut scene = builtin("plane", 640, 640);
     scene.screens[0].extent = Extent::FieldOfView(60_f64.to_radians());
+    scene.screens[0].center = DVec2::new(0.2, 0.1);
     let angle = support::plan(&scene).geometry.finest_angle;
     assert!((angle / finest - 1.0).abs() < 1e-12, "{angle} {finest}");
     // A denominator that may be zero has no bound.

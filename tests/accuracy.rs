@@ -6,10 +6,13 @@ mod support;
 #[path = "accuracy/exact.rs"]
 mod exact;
 
+use glam::{DVec2, DVec3};
 use support::recipe::{Eye, recipes};
-use support::{SHAPES, builtin, machine, runner};
+use support::{SHAPES, builtin, loaded, machine, map, over, runner, terrain};
+use terraline::engine::Engine;
+use terraline::frame::{Buffers, Hit};
 use terraline::plan::Plan;
-use terraline::scene::{Bisection, Deformation, Scene, WordSize};
+use terraline::scene::{Bisection, Deformation, Extent, Scene, WordSize};
 use terraline::study::error::{ErrorReport, PixelError, Sample, Sheet, Spread};
 
 fn errors(scene: &Scene, strips: u32) -> ErrorReport {
@@ -103,6 +106,60 @@ fn planes_keep_their_bounds() {
         within("total", report.total_px, median, p999);
         assert!(report.algorithm_px.expect("pixels").max < 1e-6, "a ratio in f64 is exact");
     }
+    // Squares fade by the larger side of a pixel and the distance of the screen.
+    let mut scene = builtin("plane", 1024, 1024);
+    let pixel = DVec2::new(0.0004, 0.0008);
+    scene.screens[0].extent = Extent::Pitch { distance: 0.5, pixel };
+    keeps(&errors(&scene, 128), 0.4, 0.001);
+}
+
+/// Where both see ground, or both a side of the map: the readout and the oracle's own.
+#[test]
+fn buffers_are_those_of_the_oracle() {
+    let beside = "camera.position=[172, 20, -20]";
+    for (name, set, kind) in [
+        ("overview", "seed=0", Hit::Surface),
+        ("overview", beside, Hit::Side),
+        ("valley", "seed=0", Hit::Surface),
+        ("plane", "seed=0", Hit::Surface),
+    ] {
+        let scene = loaded(name, &["screen.size=[160, 120]", set]);
+        let plan = support::plan(&scene);
+        let machine = machine(&scene, &plan).expect("a machine");
+        let [ours, theirs] = [Engine::Processor, Engine::Oracle]
+            .map(|engine| machine.frame(engine, true).expect("a frame"));
+        let both: Vec<usize> = (0..ours.hit.len())
+            .filter(|&at| (ours.hit[at], theirs.hit[at]) == (kind, kind))
+            .collect();
+        assert!(both.len() > 500, "{name} {set}: {} pixels", both.len());
+        let [a, b] = [ours, theirs].map(|frame| frame.buffers.expect("asked for"));
+        let keeps = |what: &str, median: f64, p999: f64, apart: &dyn Fn(usize) -> f64| {
+            let spread = Spread::of(both.iter().map(|&at| apart(at))).expect("pixels");
+            println!("{name} {set}, {what}: {spread:?}");
+            assert!(spread.median <= median && spread.p999 <= p999, "{name} {set}, {what}");
+        };
+        // As shares of the distance, in screens; normals are unit vectors.
+        keeps("lambda", 7e-5, 3e-4, &|at| (a.lambda[at] / b.lambda[at] - 1.0).abs());
+        keeps("place", 6e-5, 3e-4, &|at| a.point(at).distance(b.point(at)) / b.lambda[at]);
+        let normal = |of: &Buffers, at: usize| DVec3::from(of.normal[at]);
+        keeps("normal", 1.3e-3, 0.5, &|at| normal(&a, at).distance(normal(&b, at)));
+    }
+}
+
+#[test]
+fn eyes_just_above_the_highest_node_keep_their_bounds() {
+    for up in [1e-12, 1.0 / 300.0, 1.0 / 200.0] {
+        let hills = map(40, 40, |i, j| ((i * 7 + j * 13) % 19) as f32 / 8.0);
+        let mut scene = over(hills, 320, 240);
+        scene.camera.position = DVec3::new(20.3, terrain(&mut scene).range().1 + up, 3.2);
+        // Where the layer is thin, rays start at the eye.
+        let plan = support::plan(&scene);
+        let fitted = &plan.surfaces[0].terrain().expect("a height map").fitted;
+        assert_eq!(fitted.divider.fitted, up > 1.0 / 256.0);
+        let report = errors(&scene, 64);
+        assert!(report.same_sheet > 2000, "{} on the same sheet", report.same_sheet);
+        within("total", report.total_px, 0.006, 0.035);
+    }
 }
 
 #[test]
@@ -119,6 +176,47 @@ fn every_kernel_keeps_its_bounds() {
             within("algorithm", report.algorithm_px, 0.0035, 0.02);
         }
     }
+}
+
+#[test]
+fn a_report_sums_up_its_pixels() {
+    let sheets = [Sheet::Same, Sheet::Same, Sheet::Silhouette, Sheet::Beyond, Sheet::Empty];
+    let pixel = |n: u32| {
+        let times = |factor: u32| f64::from(factor * n);
+        PixelError {
+            line: n / 50,
+            column: n % 50,
+            sheet: sheets[n as usize % 5],
+            total_px: times(1),
+            algorithm_px: times(2),
+            quantisation_px: times(3),
+            total: times(4),
+            algorithm: times(5),
+            quantisation: times(6),
+            height: times(7),
+            color: (n % 8) as u8,
+        }
+    };
+    let pixels: Vec<PixelError> = (1..=2000).rev().map(pixel).collect();
+    let sample = Sample { lines: (0..41).collect(), columns: (0..50).collect() };
+    let report = ErrorReport::new(&sample, &pixels, 0.5);
+    // Of 1 to 2000, a metre being two units.
+    for (spread, factor) in [
+        (report.total_px, 1.0),
+        (report.algorithm_px, 2.0),
+        (report.quantisation_px, 3.0),
+        (report.total_m, 2.0),
+        (report.algorithm_m, 2.5),
+        (report.quantisation_m, 3.0),
+        (report.height_m, 3.5),
+    ] {
+        let Spread { median, p999, max } = spread.expect("pixels");
+        assert_eq!([median, p999, max], [1000.0, 1998.0, 2000.0].map(|n| n * factor));
+    }
+    let counts = [report.pixels, report.same_sheet, report.silhouettes, report.beyond];
+    assert_eq!(counts, [2000, 800, 400, 400]);
+    assert_eq!((report.sampled_lines, report.sampled_columns), (41, 50));
+    assert_eq!((report.worst, report.color_within_2), (Some((0, 40)), 3.0 / 8.0));
 }
 
 #[test]

@@ -5,11 +5,12 @@ mod support;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
+use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 use support::recipe::recipes;
 use support::{builtin, runner};
 use terraline::plan::Plan;
-use terraline::scene::{Angles, Attitude, Scene, WordSize};
+use terraline::scene::{Angles, Attitude, Extent, Scene, WordSize};
 use terraline::study::bounds;
 use terraline::study::error::Sample;
 use terraline::study::explain::{Explanation, keeps_bounds};
@@ -129,6 +130,10 @@ fn random_attitudes_keep_their_bounds() {
         }
     }
     measurements.finish("random attitudes", &[&VIEW[..], &LAST, &ENTRY].concat(), 60);
+    // Bounds are about as large as they must be: one that nothing comes near would bound nothing.
+    for (name, measured) in &measurements.by_name {
+        assert!(measured.ratio > 0.4, "{name}: {} of the bound", measured.ratio);
+    }
 }
 
 #[test]
@@ -150,6 +155,26 @@ fn random_scenes_keep_their_bounds() {
     result.unwrap();
     let measurements = measurements.into_inner().expect("one thread");
     measurements.finish("random scenes", &[&VIEW[..], &LAST, &ENTRY].concat(), 100);
+}
+
+#[test]
+fn an_explanation_is_of_its_pixel() {
+    let scene = builtin("flight", 64, 48);
+    let plan = support::plan(&scene);
+    let machine = support::machine(&scene, &plan).expect("a machine");
+    let frame = support::drawn(&scene, &plan).expect("a frame");
+    let buffers = frame.buffers.as_ref().expect("asked for");
+    let mut skip_tests = 0;
+    for at in (0..frame.hit.len()).step_by(37) {
+        let found = machine.explain((at % 64) as u32, (at / 64) as u32).expect("a pixel");
+        assert_eq!((found.hit, found.color), (frame.hit[at].name(), frame.color[at]), "{at}");
+        assert_eq!(found.skip_tests, buffers.trials[at], "{at}");
+        if found.hit == "surface" {
+            assert_eq!(found.steps, buffers.steps[at], "{at}");
+            skip_tests += found.skip_tests;
+        }
+    }
+    assert!(skip_tests > 100, "{skip_tests} skip tests");
 }
 
 #[test]
@@ -190,6 +215,15 @@ fn bounds_follow_their_equations() {
     // An exact numerator over an exact denominator is floored, and the eye rounded.
     assert_eq!(bounds::entry(format, 3.0, 0.5, 2, 0.0, 0.0), 1.5 * ulp);
     assert_eq!(bounds::entry(format, -3.0, 0.5, 1, ulp, 0.0), 5.5 * ulp);
+    // The finest angle of a screen is that of a pixel in its farthest corner.
+    let half = 30_f64.to_radians().tan();
+    let corner = DVec3::new(1.0, half * 639.0 / 640.0 + 0.2, half * 639.0 / 640.0 + 0.1);
+    let finest = 2.0 * half / 640.0 / corner.length();
+    let mut scene = builtin("plane", 640, 640);
+    scene.screens[0].extent = Extent::FieldOfView(60_f64.to_radians());
+    scene.screens[0].center = DVec2::new(0.2, 0.1);
+    let angle = support::plan(&scene).geometry.finest_angle;
+    assert!((angle / finest - 1.0).abs() < 1e-12, "{angle} {finest}");
     // A denominator that may be zero has no bound.
     assert_eq!(bounds::entry(format, 3.0, ulp, 2, 0.0, ulp), f64::INFINITY);
 }

@@ -97,6 +97,9 @@ fn buffers_are_compared() {
     assert_eq!(normal.worst, Some(vec![113, 50, 1]));
     let height = named("height");
     assert_eq!((height.differing, height.unmatched), (2, 1));
+    let apart = 151.0 / 7.0 * 1e12 - 3.0;
+    assert!((height.max_difference / apart - 1.0).abs() < 1e-12);
+    assert!((height.rms / (apart / 17_999_f64.sqrt()) - 1.0).abs() < 1e-12, "{}", height.rms);
     assert_eq!((&height.first, &height.worst), (&Some(vec![0, 1]), &Some(vec![1, 1])));
     assert_eq!(named("lambda").differing, 0);
 

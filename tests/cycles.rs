@@ -1,11 +1,15 @@
 //! The cycle recurrence against a simulation that goes cycle by cycle, and costs that can be
 //! counted by hand.
 
+mod support;
+
+use support::count;
 use terraline::clock::{Chain, Clock, Taker};
-use terraline::engine::{Machine, Memories};
+use terraline::engine::Memories;
+use terraline::frame::Hit;
 use terraline::plan::Plan;
 use terraline::processor::{self, Processor};
-use terraline::scene::{self, Scene};
+use terraline::scene::Scene;
 use terraline::study::cost::Cost;
 use terraline::study::error::Sample;
 use terraline::unit::interpolator::LERP_LATENCY;
@@ -14,16 +18,19 @@ use terraline::unit::stepper::{RAY_END, RAY_START};
 use terraline::word::stock::Narrow;
 
 fn planned(name: &str, sets: &[&str]) -> (Scene, Plan) {
-    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    let scene = scene::load(Some(name), &sets).expect("a scene");
-    let plan = Plan::new(&scene, None, false).expect("a plan");
+    let scene = support::loaded(name, sets);
+    let plan = support::plan(&scene);
     (scene, plan)
 }
 
 /// The chain of a scene and the work of its pixels in scan order.
 fn chain_and_work(name: &str, sets: &[&str]) -> (Chain, Vec<Work>) {
     let (scene, plan) = planned(name, sets);
-    let setup = Memories::default().set_up(Narrow, &scene, &plan).expect("set-up");
+    of_scene(&scene, &plan)
+}
+
+fn of_scene(scene: &Scene, plan: &Plan) -> (Chain, Vec<Work>) {
+    let setup = Memories::default().set_up(Narrow, scene, plan).expect("set-up");
     let chain = Chain::new(&setup);
     let mut work = Vec::new();
     let mut line = Processor::new(&setup).wires();
@@ -140,46 +147,85 @@ fn a_rays_work_is_the_sum_of_its_parts() {
     let (chain, _) = chain_and_work("overview", &["screen.size=[8, 8]", "kernel.deformation=1"]);
     let expected = RAY_START + 3 * (1 + memory) + 5 * 4 + 2 * answer + 4 * (4 + answer) + RAY_END;
     assert_eq!(stepper_work(&chain, work), expected);
+    // With holes, the two places about the hit are read once more.
+    let hole = |i, j| if (i, j) == (4, 4) { f32::NAN } else { 0.0 };
+    let scene = support::over(support::map(9, 9, hole), 8, 8);
+    let (chain, _) = of_scene(&scene, &support::plan(&scene));
+    let hit = Work { hits: 1, ..Work::default() };
+    assert_eq!(stepper_work(&chain, hit), RAY_START + RAY_END + 2 + answer);
 }
 
 fn cost(name: &str, sets: &[&str]) -> Cost {
     let (scene, plan) = planned(name, sets);
     let all = Sample::all(&plan);
-    let machine = Machine::new(&scene, &plan, &Memories::default()).expect("a machine");
-    machine.cost(&all, &all).expect("a cost")
+    let machine = support::machine(&scene, &plan);
+    machine.and_then(|machine| machine.cost(&all, &all)).expect("a cost")
 }
 
 #[test]
 fn costs_that_can_be_counted_by_hand() {
     // A plane: per pixel one adder for the only increment along a line (level, looking east: z),
     // and 31 + 3 additions for each of two ratios below the horizon.
+    let (scene, plan) = planned("plane", &["screen.size=[64, 64]"]);
     let plane = cost("plane", &["screen.size=[64, 64]"]);
     let unit = |name| plane.units.iter().find(|unit| unit.name == name).expect("the unit");
     assert_eq!(unit("projector").additions_per_pixel, 63.0 / 64.0);
-    assert!(unit("divider").additions_per_pixel > 40.0);
+    // Beside the ratios, the eye is added to both.
+    let met = count(&support::drawn(&scene, &plan).expect("a frame"), Hit::Surface);
+    let ratios = met as f64 * (2.0 * (31.0 + 3.0) + 2.0);
+    assert_eq!(unit("divider").additions_per_pixel, ratios / 4096.0);
     // Every pixel that meets terrain costs five lerps and two slopes.
     let valley = cost("valley", &["screen.size=[64, 64]", "camera.pitch=-80"]);
-    let interpolator = valley.units.iter().find(|u| u.name == "interpolator").expect("fitted");
+    let unit = |name| valley.units.iter().find(|unit| unit.name == name).expect("fitted");
+    let interpolator = unit("interpolator");
     assert_eq!(interpolator.products_per_pixel, 7.0);
+    // A product adds 20 + 1 times, a lerp twice more, a slope once; an axis takes ten: for the hat
+    // (2), the kernel's weight and slope (1 each), and what is shifted of either (3 each).
+    assert_eq!(interpolator.additions_per_pixel, f64::from(7 * 21 + 5 * 2 + 2 + 2 * 10));
     assert_eq!(interpolator.memory_reads_per_pixel, 4.0);
     assert_eq!(interpolator.table_reads_per_pixel, 4.0);
+    // One reciprocal square root.
+    assert_eq!(unit("shader").table_reads_per_pixel, 1.0);
+    // The units before the stepper wait for it; it waits for nobody.
+    assert!(unit("projector").stalled_cycles_per_pixel > 50.0);
+    assert_eq!(unit("stepper").stalled_cycles_per_pixel, 0.0);
+    assert!(valley.units.iter().all(|u| u.name != "divider"), "the eye is in the slab");
+}
+
+#[test]
+fn a_stepper_reads_for_its_samples_and_skip_tests() {
     // Ray steps add, they do not multiply: the stepper's products are its interpolations', three
-    // each, at four node reads.
-    let stepper = valley.units.iter().find(|u| u.name == "stepper").expect("fitted");
+    // each, at four node reads; the others are its skip tests', of rays that meet nothing too.
+    let sets = ["screen.size=[64, 64]"];
+    let (scene, plan) = planned("valley", &sets);
+    let frame = support::drawn(&scene, &plan).expect("a frame");
+    assert!(count(&frame, Hit::Sky) > 500);
+    let trials: u32 = frame.buffers.expect("asked for").trials.iter().sum();
+    let valley = cost("valley", &sets);
+    let stepper = valley.units.iter().find(|unit| unit.name == "stepper").expect("fitted");
     let interpolations = stepper.table_reads_per_pixel / 2.0;
     assert_eq!(stepper.products_per_pixel, 3.0 * interpolations);
-    assert!(valley.units.iter().all(|u| u.name != "divider"), "the eye is in the slab");
+    let reads = 4.0 * interpolations + f64::from(trials) / 4096.0;
+    assert_eq!(stepper.memory_reads_per_pixel, reads);
 }
 
 #[test]
 fn sampled_lines_estimate_the_frame() {
     let (scene, plan) = planned("flight", &["screen.size=[96, 96]"]);
-    let machine = Machine::new(&scene, &plan, &Memories::default()).expect("a machine");
+    let machine = support::machine(&scene, &plan).expect("a machine");
     let all = Sample::all(&plan);
     let some = Sample::whole_lines(&plan, 48, scene.seed);
     let exact = machine.cost(&all, &some).expect("a cost").cycles as f64;
     let scaled = machine.cost(&some, &some).expect("a cost").cycles as f64;
     assert!((scaled / exact - 1.0).abs() < 0.05, "{scaled} for {exact}");
+    // Every pixel of a plane takes one cycle, and the pipeline fills once.
+    let (scene, plan) = planned("plane", &["screen.size=[24, 18]"]);
+    let machine = support::machine(&scene, &plan).expect("a machine");
+    let all = Sample::all(&plan);
+    let [exact, scaled] = [&all, &Sample::whole_lines(&plan, 3, scene.seed)]
+        .map(|sample| machine.cost(sample, sample).expect("a cost"));
+    let fill: u32 = exact.units.iter().map(|unit| unit.latency_cycles).sum();
+    assert_eq!((exact.cycles, scaled.cycles), (24 * 18 + u64::from(fill), exact.cycles));
 }
 
 #[test]

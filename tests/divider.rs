@@ -1,6 +1,7 @@
 //! The ratio unit: the non-restoring array, the host's own division, and their definition.
 
 mod scenes;
+mod support;
 
 use glam::DVec3;
 use proptest::prelude::*;
@@ -180,6 +181,7 @@ fn both_ways_agree<W: Complete>(world: W, scene: &Scene) -> usize {
 }
 
 fn planes_divide_alike(heights: &[f64]) {
+    let mut met = 0;
     for &y in heights {
         let mut drawn = 0;
         for checker in [1e-6, 1e-3, 1.0, 8.0, 1000.0] {
@@ -190,16 +192,17 @@ fn planes_divide_alike(heights: &[f64]) {
             let (narrow, wide) = (at(WordSize::Narrow), at(WordSize::Wide));
             println!("height {y}, squares of {checker}");
             if planned(&narrow) {
-                both_ways_agree(Narrow, &narrow);
+                met += both_ways_agree(Narrow, &narrow);
                 drawn += 1;
             }
             if planned(&wide) {
-                both_ways_agree(Wide, &wide);
+                met += both_ways_agree(Wide, &wide);
                 drawn += 1;
             }
         }
         assert!(drawn > 1, "height {y} is drawn");
     }
+    assert!(met > 4000, "{met} pixels meet a plane");
 }
 
 #[test]
@@ -214,7 +217,9 @@ fn planes_seen_from_high_above_divide_alike_both_ways() {
 
 #[test]
 fn a_map_seen_from_high_above_towards_the_horizon_divides_alike_both_ways() {
-    for (y, lines) in [(20.0, 12), (1000.0, 12), (1000.0, 2), (1400.0, 2)] {
+    let mut met = 0;
+    // The first of them looks down on the map, too.
+    for (y, lines) in [(20.0, 200), (20.0, 12), (1000.0, 12), (1000.0, 2), (1400.0, 2)] {
         println!("height {y}, {lines} lines");
         let map = scenes::terrain(2, 2, vec![0.0, 1.0, 2.0, 3.0]);
         let mut scene =
@@ -222,10 +227,11 @@ fn a_map_seen_from_high_above_towards_the_horizon_divides_alike_both_ways() {
         scene.camera.attitude = Attitude::Directions { forward: DVec3::X, up: DVec3::Y };
         scene.screens[0].lines = lines;
         scene.screens[0].columns = 500;
-        both_ways_agree(Narrow, &scene);
+        met += both_ways_agree(Narrow, &scene);
         scene.machine.words = WordSize::Wide;
-        both_ways_agree(Wide, &scene);
+        met += both_ways_agree(Wide, &scene);
     }
+    assert!(met > 10_000, "{met} pixels meet the slab");
 }
 
 #[test]

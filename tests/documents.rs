@@ -5,7 +5,6 @@ use std::path::Path;
 use terraline::frame;
 use terraline::scene::{keys, load, write};
 use terraline::setup::table;
-use terraline::word::Register;
 
 fn is_current(file: &str, text: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
@@ -44,14 +43,6 @@ fn the_overview_lists_every_key_with_its_meaning() {
 #[test]
 fn the_page_of_buffers_is_generated_from_the_table() {
     is_current("docs/buffers.md", &frame::markdown());
-}
-
-#[test]
-fn every_register_is_on_its_page() {
-    let page = table::markdown();
-    for register in Register::ALL {
-        assert!(page.contains(&format!("| `{register}` |")), "{register}");
-    }
 }
 
 #[test]

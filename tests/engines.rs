@@ -198,5 +198,6 @@ fn the_real_world_sees_what_the_fixed_one_sees() {
     seen.assert_enough();
     let share = differ.load(Relaxed) as f64 / pixels.load(Relaxed) as f64;
     println!("other outcomes on {:.4} % of {} pixels", 100.0 * share, pixels.load(Relaxed));
-    assert!(share < 2e-3, "other outcomes on {share} of the pixels");
+    // Other seeds measure up to 7e-5.
+    assert!(share < 2e-4, "other outcomes on {share} of the pixels");
 }

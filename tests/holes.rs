@@ -204,15 +204,16 @@ fn errors_near_holes_are_those_of_any_ground() {
         let report = ErrorReport::new(&sample, &errors, 1.0);
         let total = report.total_px.expect("pixels");
         println!("{shape:?} {deformation:?}: {report:?}");
-        assert!(report.same_sheet > 5000);
-        assert!(report.silhouettes < sample.len() / 100, "{} silhouettes", report.silhouettes);
-        assert!(total.median < 1.0 / 32.0 && total.p999 < 0.25, "{total:?}");
-        assert!(report.color_within_2 > 0.99, "{}", report.color_within_2);
+        // Limits are about twice what is measured.
+        assert!(report.same_sheet > 10_000);
+        assert!(report.silhouettes < sample.len() / 120, "{} silhouettes", report.silhouettes);
+        assert!(total.median < 0.003 && total.p999 < 0.015, "{total:?}");
+        assert!(report.color_within_2 > 0.992, "{}", report.color_within_2);
     }
 }
 
 #[test]
-fn rules_fill_before_anything_is_drawn() {
+fn a_filled_map_has_no_holes_and_no_bits_for_them() {
     // The reader carries the rule out; a scene made by hand has the map that it asks for.
     let mut scene = over(flat(|i, j| (i, j) == (5, 5)), 24, 20);
     scene.camera.position = DVec3::new(5.0, 8.0, 5.0);

@@ -2,6 +2,7 @@
 //! against the full one.
 
 mod scenes;
+mod support;
 
 use std::sync::Arc;
 

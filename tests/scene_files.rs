@@ -267,6 +267,8 @@ fn resampled_built_in_maps_keep_their_ground() {
     assert_eq!((fine.map.columns(), fine.cell), (687, DVec2::splat(0.5)));
     let given = at(&["surface.map=builtin:jacksboro@687", "surface.cell=[2, 3]"]);
     assert_eq!(given.cell, DVec2::new(2.0, 3.0));
+    // The longer sides of two cells are more than a quarter of the height range.
+    assert_eq!(given.base_depth(), 6.0);
     assert_eq!(at(&[]).cell, DVec2::ONE);
     let error = try_scene("[[surface]]\nmap = \"builtin:jacksboro@1\"", &[]).unwrap_err();
     assert_says(&error, &["line 2", "surface.map", "from 2 to 8192"]);

@@ -11,14 +11,15 @@ mod mutation;
 #[path = "vectors/reader.rs"]
 mod reader;
 mod scenes;
+mod support;
 
 use std::collections::BTreeMap;
 
 use reader::File;
 use tempfile::TempDir;
-use terraline::engine::{FixedWorld, Machine, Memories};
+use terraline::engine::FixedWorld;
 use terraline::plan::Plan;
-use terraline::scene::{Scene, load};
+use terraline::scene::Scene;
 use terraline::sink::vectors::Vectors;
 use terraline::sink::vectors::selection::{Choice, Selection};
 
@@ -30,15 +31,9 @@ struct Written {
     selection: Selection,
 }
 
-fn machine<'a>(scene: &'a Scene, plan: &'a Plan) -> Machine<'a> {
-    Machine::new(scene, plan, &Memories::default()).expect("a machine")
-}
-
 impl Written {
     fn new(name: &str, sets: &[&str], full: bool, choice: Choice, corner_cases: u32) -> Self {
-        let sets: Vec<String> = sets.iter().map(|&set| set.into()).collect();
-        let scene = load(Some(name), &sets).expect("a scene");
-        Self::of(scene, full, choice, corner_cases, 11)
+        Self::of(support::loaded(name, sets), full, choice, corner_cases, 11)
     }
 
     fn of(scene: Scene, full: bool, choice: Choice, corner_cases: u32, seed: u64) -> Self {
@@ -46,7 +41,7 @@ impl Written {
         let selection = Selection::new(&plan, choice, seed);
         let folder = tempfile::tempdir().expect("a folder");
         let vectors = Vectors {
-            machine: &machine(&scene, &plan),
+            machine: &support::machine(&scene, &plan).expect("a machine"),
             selection: &selection,
             corner_cases,
             seed,
@@ -66,7 +61,7 @@ impl Written {
 
     fn grade(&self, files: &BTreeMap<String, File>) -> Result<(), String> {
         let (scene, plan, selection) = (&self.scene, &self.plan, &self.selection);
-        let machine = machine(scene, plan);
+        let machine = support::machine(scene, plan).expect("a machine");
         let stock = !matches!(machine.world(), FixedWorld::Sweep(_));
         machine.run(grade::Grade { scene, plan, selection, files, stock })
     }
@@ -182,7 +177,9 @@ fn a_whole_frame_takes_as_many_cycles_as_are_counted() {
         let last = cycles.rows.last().expect("rows")[cycles.at("out", "take_frame")];
         let all = Sample::all(&written.plan);
         let none = Sample { lines: vec![], columns: vec![] };
-        let cost = machine(&written.scene, &written.plan).cost(&all, &none).expect("a cost");
+        let cost = support::machine(&written.scene, &written.plan)
+            .and_then(|machine| machine.cost(&all, &none))
+            .expect("a cost");
         assert_eq!(last.map(|last| last as u64 + 1), Some(cost.cycles), "{name}");
     }
 }
@@ -214,7 +211,7 @@ fn corner_cases_reach_every_outcome() {
 fn the_page_shows_a_file_as_it_is_written() {
     let page = include_str!("../docs/vectors.md");
     let example = page.split("```text\n").nth(1).and_then(|rest| rest.split("```").next());
-    let scene = load(Some("plane"), &[]).expect("a scene");
+    let scene = support::loaded("plane", &[]);
     let seed = scene.seed;
     let written = Written::of(scene, false, Choice::Strips(4), 256, seed);
     let text = std::fs::read_to_string(written.folder.path().join("vectors/divider.mem"));

@@ -141,26 +141,32 @@ fn looks(random: &mut Random) -> Vec<String> {
 fn real_frames<W: Stock>(world: W, seed: u64) {
     let mut random = Random(seed);
     let mut rtl = Model::new(&format!("shader_{}", W::NAME));
-    let kernels: [&[&str]; 3] =
-        [&[], &["kernel.deformation=1", "kernel.shape=hat"], &["surface.height.scale=0.4"]];
+    // The eye would be under ground that is raised.
+    let grounds: [(&[&str], f64); 3] = [
+        (&[], 0.0),
+        (&["kernel.deformation=1", "kernel.shape=hat"], 0.0),
+        (&["surface.height.scale=0.4"], 120.0),
+    ];
     for name in ["overview", "flight", "valley"] {
-        for kernel in kernels {
+        for (ground, up) in grounds {
             let mut sets = looks(&mut random);
-            sets.extend(kernel.iter().map(ToString::to_string));
+            sets.extend(ground.iter().map(ToString::to_string));
             let mut scene = load(Some(name), &sets).expect("a scene");
             scene.machine.words = W::WORDS;
             scene.screens[0] = scene.screens[0].resized(64, 48);
-            // The eye may be under ground that is raised.
-            scene.camera.position.y += 120.0;
+            scene.camera.position.y += up;
             let plan = Plan::new(&scene, None, false).expect("a plan");
             let setup = Memories::default().set_up(world, &scene, &plan).expect("a set-up");
             let units = setup.surfaces[0].back.terrain().expect("a height map");
             load_coefficients(&mut rtl, &units.shader);
             let mut processor = Processor::new(&setup);
             let mut line = processor.wires();
+            let mut met = 0;
             while processor.run_line(&mut line) {
                 compare(&mut rtl, &line, &mut random);
+                met += line.hit.iter().filter(|&&hit| hit == Hit::Surface).count();
             }
+            assert!(met > 1000, "{name} {ground:?}: {met} pixels meet the ground");
         }
     }
 }

@@ -52,6 +52,17 @@ fn constant_maps_are_exact_under_every_kernel() {
 }
 
 #[test]
+fn full_light_is_the_colour_of_the_ramp() {
+    let mut scene = over(map(20, 30, |_, _| 3.0), 48, 40);
+    (scene.light.direction, scene.light.ambient) = (DVec3::Y, 0.0);
+    scene.color.ramp[0] = [255, 128, 1];
+    for frame in frames(&scene) {
+        let lit = (0..frame.hit.len()).filter(|&at| frame.hit[at] == Hit::Surface);
+        assert!(lit.into_iter().all(|at| frame.color[at] == [255, 128, 1]));
+    }
+}
+
+#[test]
 fn tilted_maps_are_exact_under_the_hat() {
     for (rise_x, rise_z) in [(2.0, 0.0), (0.0, -3.0), (1.0, 2.0), (-2.0, -1.0)] {
         for (outside, above) in [(Outside::Sky, 15.0), (Outside::Sky, 40.0), (Outside::Clamp, 15.0)]

@@ -53,6 +53,8 @@ fn every_field_is_on_its_page() {
         &["info", "a.asc", "b.png"][..],
         &["render", "b.png", "--size", "32x20", "--sample", "8"],
         &["render", "flight", "--size", "32x32", "--sample", "8"],
+        // Lists that are empty elsewhere.
+        &["render", "overview", "--size", "40x30", "--format", "ground=9.20", "--sample", "4"],
         &["explain", "flight", "--pixel", "500,900"],
         &["plan", "flight"],
         &["cycles", "flight", "--size", "32x32"],

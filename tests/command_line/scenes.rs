@@ -150,15 +150,20 @@ fn what_formats_do_not_hold_is_told() {
 #[test]
 fn overflows_are_located() {
     let folder = Folder::new();
-    let options = ["--engine", "processor", "--format", "view=1.20", "--format", "height=6.20"];
-    let output = folder.run(&[&["render", "flight", "--json"], &SMALL[..], &options].concat());
-    if output.status.code() == Some(0) {
-        let object: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        for overflow in object["overflows"].as_array().unwrap() {
-            assert!(overflow["pixels"].as_u64() > Some(0) && overflow["register"].is_string());
-            assert!(overflow["column"].as_u64() < Some(40) && overflow["line"].as_u64() < Some(30));
-        }
-    } else {
-        assert_eq!(output.status.code(), Some(2));
+    let overflows = |options: &[&str]| {
+        let object = folder.json(&[&["render", "overview"], &SMALL[..], options].concat());
+        object["overflows"].as_array().unwrap().clone()
+    };
+    assert!(overflows(&[]).is_empty());
+    // 256 of the map's 344 columns and rows: its far corner is on both engines' frames.
+    let coarse = ["--format", "ground=9.20", "--engine"];
+    let found = overflows(&[&coarse[..], &["processor"]].concat());
+    assert_eq!(found, overflows(&[&coarse[..], &["fast"]].concat()));
+    let registers: Vec<_> = found.iter().map(|overflow| &overflow["register"]).collect();
+    assert_eq!(registers, ["ground_x", "ground_z"]);
+    for overflow in found {
+        assert!((20..400).contains(&overflow["pixels"].as_u64().unwrap()), "{overflow}");
+        // The first of them: the ground's left edge, seen below the sky.
+        assert_eq!((&overflow["line"], &overflow["column"]), (&8.into(), &0.into()));
     }
 }

@@ -159,6 +159,12 @@ fn what_is_refused_names_the_field_to_change() {
             wrong.push(format!("{name} (expected {field}): {message}"));
         }
     }
+    // Within the places that are counted, but not within the steps.
+    let mut far = hills();
+    far.camera.position.x += 1e6;
+    far.stepper.fineness = 6;
+    let message = Plan::new(&far, None, false).expect_err("a long walk").to_string();
+    assert!(message.contains("2^26 are counted"), "{message}");
     assert!(refused > 10, "{refused} scenes are refused");
     assert!(wrong.is_empty(), "{} failures:\n{}", wrong.len(), wrong.join("\n"));
 }

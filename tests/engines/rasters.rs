@@ -65,18 +65,20 @@ fn thin_rasters_are_drawn_alike() {
 fn level_lines_are_drawn_alike() {
     // A line that looks almost along the ground has a denominator close to zero in every pixel.
     let mut wrong = Vec::new();
+    let mut met = 0;
     for name in super::support::SCENES {
         for (columns, lines) in [(1, 1), (64, 1), (63, 3), (1, 5)] {
             for pitch in [0.0, -1e-12, -1e-6, -1e-3, -0.05, 0.05] {
                 for roll in [0.0, 180.0, 0.001, 90.0] {
                     let scene = turned(builtin(name, columns, lines), 30.0, pitch, roll);
                     let what = format!("{name}, {columns}x{lines}, pitch {pitch}, roll {roll}");
-                    check(&what, &scene, &mut wrong);
+                    met += check(&what, &scene, &mut wrong);
                 }
             }
         }
     }
     none(&wrong);
+    assert!(met > 10_000, "{met} pixels met something");
 }
 
 #[test]
@@ -220,4 +222,17 @@ fn the_word_sizes_are_what_was_asked_for() {
     assert_eq!(plan(&scene).words, WordClass::NARROW);
     scene.machine.words = WordSize::Wide;
     assert_eq!(plan(&scene).words, WordClass::WIDE);
+    // Left to the plan: squares so large that the last bit of a place is a tenth of a pixel.
+    let mut scene = builtin("plane", 1024, 1024);
+    assert_eq!(plan(&scene).words, WordClass::NARROW);
+    let Surface::Plane(plane) = &mut scene.surfaces[0] else { panic!("a plane") };
+    plane.checker = 800.0;
+    assert_eq!(plan(&scene).words, WordClass::WIDE);
+    // Cells so narrow that slopes are beyond the shorter words: 12 · 9/4 over 1/100.
+    let mut scene = over(map(12, 9, |i, j| (12 * (i % 2 * j % 2)) as f32), 19, 13);
+    super::support::terrain(&mut scene).cell = (0.01, 100.0).into();
+    scene.camera.position = DVec3::new(0.06, 30.0, -50.0);
+    let found = plan(&scene);
+    assert_eq!(found.words, WordClass::WIDE);
+    assert!(found.words_why.contains("slopes reach 2700"), "{}", found.words_why);
 }

@@ -262,6 +262,15 @@ fn the_plan_speaks_of_the_formats_in_use() {
         let found = claims(name, format);
         assert!(found.contains(part), "{name}, {format:?}: {found}");
     }
+    // The last bits that are fine enough, and the first that are not.
+    for (register, integer, point, part) in [
+        ("view", 2, 27, "roundings of the view coefficients"),
+        ("ground", 12, 19, "the rounding of a step is 0.02 pixel"),
+    ] {
+        let found = claims("overview", (register, integer, point));
+        assert!(found.contains(part), "{register}: {found}");
+        assert_eq!(claims("overview", (register, integer, point + 1)), "", "{register}");
+    }
     // Rays that start at the eye use no denominator.
     assert_eq!(claims("valley", ("denominator", 2, 8)), "");
     assert_ne!(claims("flight", ("denominator", 2, 8)), "");

@@ -35,7 +35,7 @@ fn claims_that_the_file_cannot_hold() {
     for (file, word) in [
         (tiled().with(322, LONG, &[u64::from(u32::MAX)]), "4294967295 pixels"),
         (tiled().with(323, LONG, &[0]), "0 pixels"),
-        (tiled().with(322, LONG, &[8192]).with(323, LONG, &[8192]), "4"),
+        (tiled().with(322, LONG, &[8192]).with(323, LONG, &[8192]), "as many offsets, not 4"),
     ] {
         refused(&file.bytes(), "tiles.tif", &[word]);
     }

@@ -58,11 +58,13 @@ static SEEDS: LazyLock<Vec<(&'static str, Vec<u8>)>> = LazyLock::new(|| {
     seeds
 });
 
-/// Reads with every encoding; what is refused has a message of one line.
-pub fn try_all(bytes: &[u8], name: &str) {
+/// Reads with every encoding; what is refused has a message of one line. Whether any was read.
+pub fn try_all(bytes: &[u8], name: &str) -> bool {
+    let mut read = false;
     for (_, encoding) in Encoding::NAMES {
         match source::decode(bytes, name, encoding) {
             Ok(file) => {
+                read = true;
                 let (columns, rows) = (file.map.columns(), file.map.rows());
                 assert_eq!(file.map.samples().len(), columns * rows);
                 assert!(file.map.samples().iter().all(|sample| !sample.is_infinite()));
@@ -87,6 +89,7 @@ pub fn try_all(bytes: &[u8], name: &str) {
             }
         }
     }
+    read
 }
 
 proptest! {

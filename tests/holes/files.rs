@@ -90,6 +90,7 @@ fn under_every_rule(path: &Path, size: [u32; 2], voids: usize, fill: f32) {
     let frame = draw(&holed);
     let terrain_of = terrain(&mut holed).clone();
     assert_eq!(terrain_of.map.voids(), voids);
+    assert!(count(&frame, Hit::Surface) > 1000, "{path:?}");
     for (at, place) in seen(&frame, terrain_of.cell) {
         assert!(has_ground(&terrain_of, place), "pixel {at} of {path:?}: {place}");
     }

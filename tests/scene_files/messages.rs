@@ -124,6 +124,7 @@ fn values_out_of_range() {
         ("kind = \"terain\"", ["surface.kind", "did you mean \"terrain\"?"]),
         ("cell = [1e8, 1]", ["surface.cell", "smaller cells"]),
         ("height = { scale = 1e9 }", ["surface.height", "smaller height.scale"]),
+        ("height = { offset = 900, scale = 2e6 }", ["surface.height", "heights reach"]),
         ("outside = \"clmp\"", ["surface.outside", "did you mean \"clamp\"?"]),
         ("nodata = \"fill\"", ["surface.nodata", "nearest"]),
         ("map = \"\"", ["surface.map", "builtin:jacksboro"]),

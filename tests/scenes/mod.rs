@@ -1,21 +1,18 @@
 //! Scenes built by hand, for tests of single units.
 #![allow(dead_code, reason = "every test file uses its own part")]
 
-use std::sync::Arc;
-
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use terraline::engine::Memories;
 use terraline::plan::Plan;
 use terraline::scene::{
-    Attitude, Camera, Colors, Deformation, Encoding, Extent, Hardware, HeightMap, Kernel,
-    KernelShape, Light, NoData, Outside, Plane, Scene, Screen, Surface, Terrain, WordSize,
+    Attitude, Camera, Colors, Deformation, Extent, Hardware, HeightMap, Kernel, Light, Outside,
+    Plane, Scene, Screen, Surface, Terrain, WordSize,
 };
 use terraline::setup::{Setup, TerrainUnits};
 use terraline::unit::interpolator::Interpolator;
 use terraline::word::Complete;
 
-pub const SHAPES: [KernelShape; 4] =
-    [KernelShape::Cosine, KernelShape::Parabola, KernelShape::Exponential, KernelShape::Hat];
+use crate::support::{SHAPES, land};
 
 pub const DEFORMATIONS: [Deformation; 7] = [
     Deformation::None,
@@ -36,17 +33,7 @@ pub fn kernels() -> impl Iterator<Item = Kernel> {
 
 /// Samples are heights in scene units, cells are unit squares.
 pub fn terrain(columns: usize, rows: usize, samples: Vec<f32>) -> Terrain {
-    Terrain {
-        source: "by hand".into(),
-        map: Arc::new(HeightMap::new(columns, rows, samples)),
-        encoding: Encoding::Stored,
-        cell: DVec2::ONE,
-        offset: 0.0,
-        scale: 1.0,
-        outside: Outside::Sky,
-        nodata: NoData::Hole,
-        base_depth: None,
-    }
+    land(HeightMap::new(columns, rows, samples))
 }
 
 /// The same map with something else beyond its edge.

@@ -27,20 +27,24 @@ pub const SCENES: [&str; 4] = ["overview", "flight", "valley", "plane"];
 pub const SHAPES: [KernelShape; 4] =
     [KernelShape::Cosine, KernelShape::Parabola, KernelShape::Exponential, KernelShape::Hat];
 
+/// A built-in scene with options.
+pub fn loaded(name: &str, sets: &[&str]) -> Scene {
+    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+    load(Some(name), &sets).unwrap_or_else(|error| panic!("{error}"))
+}
+
 /// A built-in scene in another raster.
 pub fn builtin(name: &str, columns: u32, lines: u32) -> Scene {
-    let mut scene = load(Some(name), &[]).expect("a built-in scene");
+    let mut scene = loaded(name, &[]);
     for screen in &mut scene.screens {
         *screen = screen.resized(columns, lines);
     }
     scene
 }
 
-/// A scene over a map of square cells of side one, samples as heights, seen from above its middle.
-pub fn over(map: HeightMap, columns: u32, lines: u32) -> Scene {
-    let (width, depth) = ((map.columns() - 1) as f64, (map.rows() - 1) as f64);
-    let highest = f64::from(map.range().1);
-    let surface = Surface::Terrain(Terrain {
+/// Ground of square cells of side one, samples as heights.
+pub fn land(map: HeightMap) -> Terrain {
+    Terrain {
         source: "hand".into(),
         map: Arc::new(map),
         encoding: Encoding::Stored,
@@ -50,7 +54,14 @@ pub fn over(map: HeightMap, columns: u32, lines: u32) -> Scene {
         outside: Outside::Sky,
         nodata: NoData::Hole,
         base_depth: None,
-    });
+    }
+}
+
+/// A scene over such ground, seen from above its middle.
+pub fn over(map: HeightMap, columns: u32, lines: u32) -> Scene {
+    let (width, depth) = ((map.columns() - 1) as f64, (map.rows() - 1) as f64);
+    let highest = f64::from(map.range().1);
+    let surface = Surface::Terrain(land(map));
     Scene {
         name: "hand".into(),
         unit_m: 1.0,

@@ -32,8 +32,16 @@ fn lines_fall_as_they_are_granted() {
     // The next line is the first of the next frame.
     worker.grant(1, u32::MAX);
     worker.finish();
-    assert_eq!((worker.snapshot().images[0].drawn(), worker.snapshot().scan), (1, Some(1)));
+    let drawn = || (worker.snapshot().images[0].drawn(), worker.snapshot().scan);
+    assert_eq!(drawn(), (1, Some(1)));
     assert_eq!(worker.snapshot().images[0].pixels, whole);
+    // No more than asked for wait to be drawn; what is over at the end is the next frame's.
+    worker.grant(30, 5);
+    worker.finish();
+    assert_eq!(drawn(), (6, Some(6)));
+    worker.grant(57, u32::MAX);
+    worker.finish();
+    assert_eq!(drawn(), (3, Some(3)));
 }
 
 #[test]

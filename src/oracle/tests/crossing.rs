@@ -184,6 +184,7 @@ fn no_crossing_is_jumped_by_passing_over_blocks() {
                 let march = March::new(&terrain, kernel, eye, oracle.direction(line, column));
                 march.check(&sighting);
                 outcomes[sighting.hit as usize] += 1;
+                assert!(!sighting.tangent, "random rays are not tangent");
             }
         }
     }
@@ -197,6 +198,7 @@ fn hits_project_back_to_their_pixels() {
         let terrain = terrain(rough_map(40, 30, 5), Outside::Sky);
         let (eye, forward) = (DVec3::new(30.0, 6.0, 0.5), DVec3::new(0.0, -0.6, 1.0));
         let oracle = oracle(&scene(Surface::Terrain(terrain), kernel, eye, forward));
+        let mut hits = 0;
         for n in 0..100 {
             let (line, column) = (f64::from(n % 48), f64::from(n * 7 % 64));
             let sighting = oracle.pixel(line, column);
@@ -207,8 +209,10 @@ fn hits_project_back_to_their_pixels() {
                 let (j, k) = oracle.project(sighting.point).unwrap();
                 assert!((j - line).abs() < 1e-9 && (k - column).abs() < 1e-9);
                 assert!((height.unwrap() - sighting.point.y).abs() < 1e-12);
+                hits += 1;
             }
         }
+        assert!(hits > 50, "{kernel:?}: {hits} hits");
     }
 }
 
@@ -216,6 +220,7 @@ fn hits_project_back_to_their_pixels() {
 fn crossings_are_counted_as_the_march_counts_them() {
     let whole = rough_map(9, 7, 6);
     let holed = with_holes(&whole, 0.06, 6);
+    let (mut crossed, mut sheets) = (0, 0);
     for (kernel, map) in kernels().into_iter().flat_map(|k| [(k, &whole), (k, &holed)]) {
         let terrain = terrain(map.clone(), Outside::Sky);
         // No sample of the march falls on the edge of the map.
@@ -236,19 +241,22 @@ fn crossings_are_counted_as_the_march_counts_them() {
             assert!(counted <= marched + 2, "{counted} {marched}");
             let reversed = oracle.crossings(line, column, end, 0.0);
             assert_eq!(reversed, counted);
-            check_sheets(&oracle, (line, column), &inside, march.step);
+            crossed += usize::from(counted > 1);
+            sheets += usize::from(check_sheets(&oracle, (line, column), &inside, march.step));
         }
     }
+    assert!(crossed > 200 && sheets > 200, "{crossed} rays with two crossings, {sheets} sheets");
 }
 
-/// Samples in the solid up to its first end are on the sheet of the hit, later ones are not.
-fn check_sheets(oracle: &Oracle, (line, column): (f64, f64), inside: &[bool], step: f64) {
+/// Samples in the solid up to its first end are on the sheet of the hit, later ones are not. `false`
+/// where there is nothing to compare.
+fn check_sheets(oracle: &Oracle, (line, column): (f64, f64), inside: &[bool], step: f64) -> bool {
     let sighting = oracle.pixel(line, column);
     let Some(first) = inside.iter().position(|&inside| inside) else {
-        return;
+        return false;
     };
     if sighting.tangent || sighting.lambda < (first - 1) as f64 * step {
-        return;
+        return false;
     }
     let same = |n: usize| oracle.same_sheet(line, column, n as f64 * step);
     assert!(same(first) && same(first - 1) && same(1));
@@ -267,4 +275,5 @@ fn check_sheets(oracle: &Oracle, (line, column): (f64, f64), inside: &[bool], st
         }
     }
     assert!(!oracle.same_sheet(line, column, f64::NAN));
+    length.is_some()
 }

@@ -298,7 +298,11 @@ mod tests {
                 for size in [(1280, 800), (640, 640), (200, 900), (2000, 100)] {
                     let view = view(columns, rows, range, size);
                     let top = f64::from(range) * view.scale;
-                    assert!(view.position.y > top, "{view:?}");
+                    let high = view.position.y - top;
+                    assert!(high > 0.999 * (top + view.base_depth) / 8.0, "{view:?}");
+                    let cells = DVec2::new((columns - 1) as f64, (rows - 1) as f64);
+                    let longer = (cells * view.cell).max_element();
+                    assert!(view.base_depth > 0.999 * longer / 64.0, "{view:?}");
                     let psi = view.heading.to_radians();
                     let theta = PITCH.to_radians();
                     let (east, south) = (columns - 1, rows - 1);

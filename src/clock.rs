@@ -65,11 +65,6 @@ impl Chain {
         stages.push(FRAME);
         Self { stages, of_units }
     }
-
-    /// A stage by its name.
-    pub fn stage(&self, name: &str) -> Option<Stage> {
-        self.stages.iter().copied().find(|stage| stage.name == name)
-    }
 }
 
 /// When finished pixels are taken from the frame.
@@ -78,7 +73,8 @@ pub enum Taker {
     /// Takes a pixel in every cycle.
     #[default]
     Ready,
-    /// Is busy in some cycles, chosen by a seed.
+    /// Is busy in some cycles, chosen by a seed: the co-simulation's.
+    #[cfg_attr(not(feature = "parts"), expect(dead_code, reason = "only parts are co-simulated"))]
     Busy {
         /// Seed of the random bits that choose the cycles.
         seed: u64,
@@ -135,6 +131,7 @@ impl Clock {
     }
 
     /// The clock with another taker behind the frame.
+    #[cfg(feature = "parts")]
     #[must_use]
     pub fn with_taker(self, taker: Taker) -> Self {
         Self { taker, ..self }

@@ -8,22 +8,19 @@
 //! ```
 //!
 //! - [`scene`]: what the user asked for, in scene units and `f64`.
-//! - [`plan`]: which units the scene needs, which word size holds it, and the proof of its ranges.
-//! - [`word`]: number worlds, from `f64` to fixed point of any width.
-//! - [`setup`]: coefficients, tables and maps quantised into registers.
-//! - [`mod@unit`]: one file per hardware unit; each works on the wires of one scan line.
-//! - [`processor`] and [`fast`]: the two engines, equal in every bit; [`clock`] counts cycles.
-//! - [`oracle`]: every pixel in closed form, sharing no code with what it checks.
-//! - [`engine`]: a scene's machine, set up, to be drawn by any of them, and asked by studies.
-//! - [`study`], [`sink`]: errors and costs, files.
-//! - `cli` (feature `cli`): the commands; `view` (feature `window`): the window.
+//! - [`Plan`]: which units a scene needs, which word size holds it, and the proof of its ranges.
+//! - [`Machine`]: a scene, set up, to be drawn by any [`Engine`] and asked by studies. Processor and
+//!   fast engine are equal in every bit; `f64` units and oracle are what they are compared with.
+//! - [`Frame`] and its [`Buffers`]: what an engine hands out.
+//! - [`Oracle`]: every pixel in closed form, sharing no code with what it checks.
+//! - [`ErrorReport`], [`Cost`], [`Explanation`]: what a machine is worth, what it costs, and one of its
+//!   pixels register by register.
+//! - [`Vectors`], [`write_png`], [`write_npz`]: files.
 //!
 //! Draw a frame and ask what it is worth:
 //!
 //! ```
-//! use terraline::engine::{Engine, Machine, Memories};
-//! use terraline::plan::Plan;
-//! use terraline::study::error::{ErrorReport, Sample};
+//! use terraline::{Engine, ErrorReport, Machine, Memories, Plan, Sample};
 //!
 //! let scene = terraline::scene::load(Some("overview"), &["screen.size=[64, 48]".into()])?;
 //! let plan = Plan::new(&scene, None, false)?;
@@ -37,22 +34,63 @@
 //! assert!(report.total_px.is_some_and(|spread| spread.median < 1.0 / 32.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! The parts of the machine (units, number worlds, set-up, clock, engines) are open to whoever asks for
+//! the feature `parts`, as the hardware model and the tests do; they change without notice.
+
+macro_rules! parts {
+    ($($(#[$which:meta])* $name:ident)*) => {
+        $(
+            $(#[$which])*
+            #[cfg(feature = "parts")]
+            pub mod $name;
+            $(#[$which])*
+            #[cfg(not(feature = "parts"))]
+            mod $name;
+        )*
+    };
+}
+
+parts! {
+    #[cfg(feature = "cli")] cli
+    clock
+    engine
+    fast
+    frame
+    oracle
+    plan
+    processor
+    readout
+    setup
+    sink
+    study
+    unit
+    #[cfg(feature = "window")] view
+    word
+}
+pub mod scene;
 
 #[cfg(feature = "cli")]
-pub mod cli;
-pub mod clock;
-pub mod engine;
-pub mod fast;
-pub mod frame;
-pub mod oracle;
-pub mod plan;
-pub mod processor;
-pub mod readout;
-pub mod scene;
-pub mod setup;
-pub mod sink;
-pub mod study;
-pub mod unit;
-#[cfg(feature = "window")]
-pub mod view;
-pub mod word;
+#[doc(hidden)]
+pub use cli::main;
+pub use engine::{
+    Band, Engine, FixedWorld, Machine, Memories, Overflows, Scan, SetUpTime, Stop, Wanted,
+};
+pub use frame::{Buffers, Frame, Hit, Pixel};
+pub use oracle::{Oracle, Sighting};
+pub use plan::{Fit, Plan, PlanError, SurfacePlan, UnitPlan, WordClass};
+pub use setup::SetupError;
+pub use sink::npz::write as write_npz;
+pub use sink::picture::{Legend, Painted, Picture};
+pub use sink::png::{Image, read as read_png, write as write_png};
+pub use sink::vectors::selection::Selection;
+pub use sink::vectors::{Vectors, VectorsError};
+pub use sink::{ReadError, SinkError};
+pub use study::compare::{
+    CompareError, Comparison, compare_files, difference_picture, gain as difference_gain,
+};
+pub use study::cost::Cost;
+pub use study::error::{ErrorReport, PixelError, Sample, Spread};
+pub use study::explain::Explanation;
+pub use study::explain::text::text as explanation_text;
+pub use word::{Class, Fixed, Register};

@@ -13,7 +13,7 @@ use terraline::plan::Plan;
 use terraline::scene::{Angles, Attitude, Extent, Scene, WordSize};
 use terraline::study::bounds;
 use terraline::study::error::Sample;
-use terraline::study::explain::{Explanation, keeps_bounds};
+use terraline::study::explain::Explanation;
 use terraline::word::Fixed;
 use terraline::word::format::hash;
 
@@ -37,7 +37,6 @@ struct Measurements {
 impl Measurements {
     fn take(&mut self, scene: &str, explanation: &Explanation) {
         self.pixels += 1;
-        let mut kept = true;
         for row in &explanation.rows {
             let Some(bound) = row.bound else { continue };
             // Against the units in f64, and where there is one against the closed form.
@@ -56,9 +55,14 @@ impl Measurements {
                     ));
                 }
             }
-            kept &= row.error.is_none_or(|error| error.abs() <= bound);
         }
-        assert_eq!(kept, keeps_bounds(explanation), "the study says the same");
+    }
+
+    /// Whether every bounded row of an explanation keeps its bound.
+    fn keeps(explanation: &Explanation) -> bool {
+        let mut measurements = Self::default();
+        measurements.take("", explanation);
+        measurements.above.is_empty()
     }
 
     /// Prints every register, and fails where one is above its bound or was hardly measured.
@@ -183,7 +187,7 @@ fn a_bound_that_is_too_small_fails() {
     let plan = support::plan(&scene);
     let machine = support::machine(&scene, &plan).expect("a machine");
     let explanation = machine.explain(700, 800).expect("a pixel");
-    assert!(keeps_bounds(&explanation));
+    assert!(Measurements::keeps(&explanation));
     let bounded = |row: &&terraline::study::explain::Row| row.bound.is_some();
     assert!(explanation.rows.iter().filter(bounded).count() >= 6);
     // Row by row, a bound just under the error is found out, and so is an error that is no number.
@@ -193,11 +197,11 @@ fn a_bound_that_is_too_small_fails() {
         let (Some(error), Some(_)) = (row.error, row.bound) else { continue };
         let mut wrong = explanation.clone();
         wrong.rows[at].error = Some(f64::NAN);
-        assert!(!keeps_bounds(&wrong), "{}", row.what);
+        assert!(!Measurements::keeps(&wrong), "{}", row.what);
         if error != 0.0 {
             wrong = explanation.clone();
             wrong.rows[at].bound = Some(error.abs() * 0.999);
-            assert!(!keeps_bounds(&wrong), "{}", row.what);
+            assert!(!Measurements::keeps(&wrong), "{}", row.what);
             found += 1;
         }
     }

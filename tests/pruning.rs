@@ -4,16 +4,15 @@ mod support;
 
 use glam::{DVec2, DVec3};
 use support::{assert_same, both, builtin, count, drawn, machine, map, over, terrain};
-use terraline::engine::{FixedWorld, InFixedWorld};
+use terraline::engine::FixedWorld;
 use terraline::frame::Hit;
 use terraline::plan::Plan;
-use terraline::plan::units::{UnitPlan, units};
+use terraline::plan::UnitPlan;
 use terraline::scene::{
     Angles, Attitude, Deformation, HeightMap, Kernel, KernelShape, Scene, StepperMode, WordSize,
 };
 use terraline::study::cost::Cost;
 use terraline::study::error::Sample;
-use terraline::word::Complete;
 
 /// One pruning: a scene, and what must be left out of it, with a word of the reason.
 struct Case {
@@ -198,14 +197,7 @@ fn planned(scene: &Scene, full: bool) -> Plan {
 }
 
 fn described(scene: &Scene, plan: &Plan) -> Vec<UnitPlan> {
-    struct Describe<'a>(&'a Plan);
-    impl InFixedWorld for Describe<'_> {
-        type Output = Vec<UnitPlan>;
-        fn run<W: Complete>(self, world: W) -> Self::Output {
-            units(self.0, &world)
-        }
-    }
-    FixedWorld::of(scene, plan).expect("a world").run(Describe(plan))
+    FixedWorld::of(scene, plan).expect("a world").units(plan)
 }
 
 fn cost(scene: &Scene, plan: &Plan) -> Cost {

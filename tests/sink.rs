@@ -57,13 +57,10 @@ fn pictures_survive_a_round_trip() {
 }
 
 #[test]
-fn sixteen_bit_grey_survives_a_round_trip() {
+fn a_picture_of_sixteen_bits_is_refused() {
     let folder = folder();
     let path = folder.path().join("map.png");
-    let samples: Vec<u16> = (0..12).map(|i| i * 5000 + 7).collect();
-    png::write_grey16(&path, 4, 3, &samples).unwrap();
-    let read = image::open(&path).unwrap();
-    assert_eq!(read.as_luma16().unwrap().as_raw(), &samples);
+    image::ImageBuffer::from_fn(4, 3, |x, y| image::Luma([(x * y) as u16])).save(&path).unwrap();
     let refused = png::read(&path).unwrap_err().to_string();
     assert!(refused.contains("8 bits"), "{refused}");
 }

@@ -3,7 +3,6 @@
 use clap::Args;
 use serde::Serialize;
 
-use super::render::Units;
 use super::scene_args::SceneArgs;
 use super::{Stop, report};
 use crate::plan::SurfacePlan;
@@ -69,7 +68,7 @@ impl PlanCommand {
             columns: plan.geometry.columns,
             lines: plan.geometry.lines,
             walk,
-            units: planned.world.run(Units { planned: &planned }),
+            units: planned.world.units(plan),
         };
         if self.json {
             return report::json("plan", Some(&planned.scene.name), &planning);

@@ -11,12 +11,10 @@ use super::outputs::{self, Named};
 use super::scene_args::{Planned, SceneArgs};
 use super::scene_out::SceneOut;
 use super::{Stop, report};
-use crate::engine::{Band, Engine, InFixedWorld, Machine, Wanted};
-use crate::plan::units::{UnitPlan, units};
+use crate::engine::{Band, Engine, Machine, Wanted};
 use crate::sink::picture::Picture;
 use crate::sink::{npz, png};
 use crate::study::error::Sample;
-use crate::word::Complete;
 
 /// Draw one frame and say what it is worth and what it costs.
 #[derive(Debug, Args)]
@@ -168,18 +166,5 @@ impl Render {
             );
         }
         Ok(())
-    }
-}
-
-/// The plan's units in the world's formats.
-pub struct Units<'a> {
-    /// Scene and plan of the frame.
-    pub planned: &'a Planned,
-}
-
-impl InFixedWorld for Units<'_> {
-    type Output = Vec<UnitPlan>;
-    fn run<W: Complete>(self, world: W) -> Self::Output {
-        units(&self.planned.plan, &world)
     }
 }

@@ -13,7 +13,7 @@ mod world;
 
 pub use list::Engine;
 pub use machine::{Machine, WithSetup};
-pub use memories::{Memories, Ready, SetUpTime};
+pub use memories::{Memories, SetUpTime};
 pub use overflows::Overflows;
 pub use scan::{Band, Scan, Stop, Wanted};
-pub use world::{FixedWorld, InFixedWorld};
+pub use world::FixedWorld;

@@ -1,9 +1,9 @@
 //! The fixed-point world of a scene, by its plan's choice.
 
-use crate::plan::{Plan, WordClass, formats};
+use crate::plan::units::units;
+use crate::plan::{Plan, UnitPlan, WordClass, formats};
 use crate::scene::Scene;
 use crate::setup::SetupError;
-use crate::word::Complete;
 use crate::word::stock::{Narrow, Wide};
 use crate::word::sweep::Sweep;
 
@@ -16,14 +16,6 @@ pub enum FixedWorld {
     Wide(Wide),
     /// Formats of the scene's own.
     Sweep(Sweep),
-}
-
-/// Work that is generic over the fixed-point world.
-pub trait InFixedWorld {
-    /// Result.
-    type Output;
-    /// Does the work in a world.
-    fn run<W: Complete>(self, world: W) -> Self::Output;
 }
 
 impl FixedWorld {
@@ -41,12 +33,12 @@ impl FixedWorld {
         })
     }
 
-    /// Runs generic work in this world.
-    pub fn run<J: InFixedWorld>(&self, work: J) -> J::Output {
+    /// All units of a plan, in this world's formats.
+    pub fn units(&self, plan: &Plan) -> Vec<UnitPlan> {
         match self {
-            Self::Narrow(world) => work.run(*world),
-            Self::Wide(world) => work.run(*world),
-            Self::Sweep(world) => work.run(*world),
+            Self::Narrow(world) => units(plan, world),
+            Self::Wide(world) => units(plan, world),
+            Self::Sweep(world) => units(plan, world),
         }
     }
 

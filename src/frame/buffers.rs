@@ -3,8 +3,6 @@
 //! A new buffer is a line of [`TABLE`] and its value in the two places that make a [`Pixel`]:
 //! `readout` for the engines, `oracle::draw` for the oracle.
 
-use std::fmt::Write as _;
-
 use glam::DVec3;
 
 use super::hit::Hit;
@@ -255,27 +253,4 @@ impl Pixel {
     pub fn point(&self) -> DVec3 {
         DVec3::new(self.ground_x, self.height, self.ground_z)
     }
-}
-
-/// Text of docs/buffers.md.
-#[must_use]
-pub fn markdown() -> String {
-    let mut out = String::from(
-        "# Buffers\n\n\
-         `render --buffers OUT.npz` writes numpy arrays of shape [lines, columns], or [lines, columns, 3], from\n\
-         the top left. Misses (sky, out of range) are NaN in floats and 0 in integers. This page is generated from\n\
-         the table in `src/frame/buffers.rs`.\n\n\
-         | array | type | given by | holds |\n|---|---|---|---|\n",
-    );
-    for BufferRow { name, dtype, components, giver, holds } in &TABLE {
-        let dtype = &dtype.name()[1..];
-        let times = if *components > 1 { format!(" ×{components}") } else { String::new() };
-        let giver = match giver {
-            Giver::Engines => "all",
-            Giver::Processor => "processor, real",
-        };
-        let _ = writeln!(out, "| `{name}` | {dtype}{times} | {giver} | {holds} |");
-    }
-    out + "\nThe engines fast and processor write the same bits. Real and oracle write the same arrays in their\n\
-           own numbers.\n"
 }

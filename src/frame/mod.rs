@@ -3,7 +3,7 @@
 mod buffers;
 mod hit;
 
-pub use buffers::{BufferRow, Buffers, Dtype, Element, Giver, Pixel, Scalars, TABLE, markdown};
+pub use buffers::{BufferRow, Buffers, Dtype, Element, Giver, Pixel, Scalars, TABLE};
 pub use hit::Hit;
 
 /// One frame, or some of its lines, line by line from the top, column by column from the left.

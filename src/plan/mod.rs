@@ -20,7 +20,7 @@ use words::Choice;
 pub use fitted::Fit;
 pub use plane::PlanePlan;
 pub use surface::{Projection, SurfacePlan};
-pub use terrain::{Fitted, HeightScale, TerrainPlan};
+pub use terrain::TerrainPlan;
 pub use units::UnitPlan;
 pub use words::WordClass;
 

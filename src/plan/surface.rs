@@ -13,7 +13,7 @@ use crate::scene::{Scene, Surface};
 #[derive(Clone, Debug)]
 pub enum SurfacePlan {
     /// A height map, walked over by rays.
-    Terrain(TerrainPlan),
+    Terrain(Box<TerrainPlan>),
     /// A plane, met by one ratio.
     Plane(PlanePlan),
 }
@@ -64,7 +64,7 @@ impl SurfacePlan {
     ) -> Self {
         match surface {
             Surface::Terrain(terrain) => {
-                Self::Terrain(TerrainPlan::new(terrain, scene, geometry, words, full))
+                Self::Terrain(Box::new(TerrainPlan::new(terrain, scene, geometry, words, full)))
             }
             Surface::Plane(plane) => Self::Plane(PlanePlan::new(plane, geometry, words)),
         }
@@ -72,7 +72,7 @@ impl SurfacePlan {
 
     pub(super) fn planned(&self) -> &dyn Planned {
         match self {
-            Self::Terrain(terrain) => terrain,
+            Self::Terrain(terrain) => &**terrain,
             Self::Plane(plane) => plane,
         }
     }

@@ -1,17 +1,11 @@
 //! The register table: what each register holds, in which unit, by which equation, and how far it
-//! can be from the exact value. `docs/registers.md` is generated from it.
+//! can be from the exact value. The tests generate docs/registers.md
+//! from it.
 
-use std::fmt::Write as _;
-
-use crate::plan::WordClass;
-use crate::unit::description::SHADER_TIMING;
-use crate::unit::divider::ENDS as DIVIDER_ENDS;
-use crate::unit::interpolator::{LERP_LATENCY, SLOPE_LATENCY};
-use crate::unit::kernel_rom::LATENCY as KERNEL_LATENCY;
-use crate::unit::stepper::{RAY_END, RAY_START};
 use crate::word::Register;
 
-/// One row of the table.
+/// One row of the table. The hardware's package and docs/registers.md are made of it.
+#[cfg_attr(not(feature = "parts"), allow(dead_code))]
 #[derive(Clone, Copy, Debug)]
 pub struct RegisterRow {
     /// The register that the row is about.
@@ -82,61 +76,4 @@ pub fn row(register: Register) -> RegisterRow {
         ),
         R::Channel => new("ramp, mixer, checker", "colour channel", "0..=255", "26, 27", "1 level"),
     }
-}
-
-/// Text of docs/registers.md.
-pub fn markdown() -> String {
-    let mut out = String::from(
-        "# Registers\n\n\
-         Generated from the register table (`src/setup/table.rs`); a test compares the two.\n\n\
-         Formats are written Q*i.f*: *i* bits before the point, sign included, *f* after it. \
-         Numbers in parentheses are equations of [mathematics.md](mathematics.md). A register \
-         named under *follows* meets its leader in an adder and always has its format; \
-         `[format]` sets the leader. Exponents e and d are powers of two of the set-up that bring \
-         the largest value on the screen into [½, 1).\n\n\
-         | register | class | unit | holds | measure | narrow | wide | follows | equations | error bound |\n\
-         |---|---|---|---|---|---|---|---|---|---|\n",
-    );
-    for &register in Register::ALL {
-        let e = row(register);
-        let _ = writeln!(
-            out,
-            "| `{}` | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
-            register,
-            register.class().name(),
-            e.unit,
-            e.meaning,
-            e.measure,
-            WordClass::NARROW.fixed(register),
-            WordClass::WIDE.fixed(register),
-            register.follows().map_or_else(String::new, |leader| format!("`{leader}`")),
-            e.equations,
-            e.bound
-        );
-    }
-    let _ = write!(
-        out,
-        "\n## Latencies and queues\n\n\
-         Cycles; M is `machine.memory_latency`, *bits* the quotient bits of the plan. A unit holds \
-         *depth* items, pipeline and queue together (equation 28).\n\n\
-         | unit | work on an item | latency | depth |\n|---|---|---|---|\n\
-         | projector | 1 | 1 | 2 |\n\
-         | divider, array | 1 | bits + {DIVIDER_ENDS} | bits + {} |\n\
-         | divider, serial | bits + {DIVIDER_ENDS} | 1 | 2 |\n\
-         | stepper | {RAY_START} + skip_tests·(1 + M) + samples·R + bursts·(N + {LERP_LATENCY}) + \
-         bisection_steps·(R + N + {LERP_LATENCY}) + hits·({RAY_END} + H) | 1 | 2 |\n\
-         | interpolator | R | N + {} | N + {} |\n\
-         | shader, checker | 1 | {} | {} |\n\
-         | frame | 1 | 0 | 1 |\n\n\
-         R, reads of the height memory per interpolation: 1 cycle for 2×2 nodes, 4 for 3×3. A \
-         burst is a run of up to 2^k samples streamed through the interpolator. H is 2R + N + \
-         {LERP_LATENCY} on a map with holes, else 0. N is the larger of M and {KERNEL_LATENCY}, the cycles \
-         of kernel ROM and hat weight.\n",
-        DIVIDER_ENDS + 1,
-        LERP_LATENCY + SLOPE_LATENCY,
-        LERP_LATENCY + SLOPE_LATENCY + 1,
-        SHADER_TIMING.latency,
-        SHADER_TIMING.depth,
-    );
-    out
 }

@@ -20,6 +20,7 @@ impl NewFolder {
     ///
     /// # Errors
     /// If something of this name exists already, or the folder around it is missing.
+    #[cfg(feature = "cli")]
     pub fn check(target: &Path) -> Result<(), SinkError> {
         around(target).map(|_| ())
     }

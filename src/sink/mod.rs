@@ -122,6 +122,7 @@ fn remedy(error: &io::Error) -> &'static str {
 ///
 /// # Errors
 /// As [`write_atomically`].
+#[cfg(feature = "cli")]
 pub fn check_writable(path: &Path) -> Result<(), SinkError> {
     match Target::resolve(path)? {
         Target::Direct => Ok(()),

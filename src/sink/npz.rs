@@ -166,6 +166,7 @@ impl<R: Read> ArrayReader<'_, R> {
     ///
     /// # Errors
     /// As [`ArrayReader::next_piece`].
+    #[cfg(feature = "parts")]
     pub fn read_all(mut self) -> Result<Vec<f64>, ReadError> {
         let (mut all, mut piece) = (Vec::new(), Vec::new());
         loop {

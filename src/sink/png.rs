@@ -7,8 +7,8 @@ use std::path::Path;
 use image::codecs::png::PngEncoder;
 use image::error::LimitErrorKind;
 use image::{
-    ColorType, DynamicImage, ExtendedColorType, ImageBuffer, ImageEncoder, ImageError, ImageFormat,
-    ImageReader, Limits, Luma,
+    ColorType, DynamicImage, ExtendedColorType, ImageEncoder, ImageError, ImageFormat,
+    ImageReader, Limits,
 };
 
 use super::{ReadError, SinkError, write_atomically};
@@ -52,24 +52,6 @@ pub fn write(
                 ExtendedColorType::Rgb8,
             )
             .map_err(into_io)
-    })
-}
-
-/// Writes 16-bit greyscale, `lines * columns` samples, line by line from the top.
-///
-/// # Errors
-/// [`SinkError`]; nothing is left half-written.
-pub fn write_grey16(
-    path: &Path,
-    columns: usize,
-    lines: usize,
-    samples: &[u16],
-) -> Result<(), SinkError> {
-    check_size(path, columns, lines, samples.len())?;
-    write_atomically(path, |out| {
-        let image = ImageBuffer::<Luma<u16>, _>::from_raw(side(columns)?, side(lines)?, samples)
-            .ok_or_else(|| io::Error::from(io::ErrorKind::InvalidInput))?;
-        image.write_with_encoder(PngEncoder::new(out)).map_err(into_io)
     })
 }
 

@@ -185,11 +185,3 @@ fn bound(
         _ => None,
     }
 }
-
-/// Whether every bounded row keeps its bound.
-pub fn keeps_bounds(explanation: &Explanation) -> bool {
-    explanation.rows.iter().all(|row| match (row.error, row.bound) {
-        (Some(error), Some(bound)) => error.abs() <= bound,
-        _ => true,
-    })
-}

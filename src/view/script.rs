@@ -13,9 +13,6 @@
 
 use super::input::{Input, Key};
 
-/// Most frames of a run.
-pub const MAX_FRAMES: u32 = 100_000;
-
 /// Input of one frame after the other.
 ///
 /// # Errors

@@ -96,6 +96,7 @@ impl Image {
     }
 
     /// Lines that are drawn, from the top.
+    #[cfg(any(test, feature = "parts"))]
     #[must_use]
     pub fn drawn(&self) -> usize {
         self.states.iter().take_while(|&&state| state == LineState::Drawn).count()

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::super::report;
 use super::super::scene_args::Planned;
-use super::{Drawn, Render, Stop, Units};
+use super::{Drawn, Render, Stop};
 use crate::engine::Engine;
 use crate::frame::Hit;
 use crate::plan::units::UnitPlan;
@@ -114,7 +114,7 @@ impl Render {
             not_proved: plan.not_proved.clone(),
             columns: drawn.band.frame.columns,
             lines: drawn.band.frame.lines,
-            units: world.run(Units { planned }),
+            units: world.units(&planned.plan),
             frame_ms: Times {
                 min: times[0],
                 median: (times[(times.len() - 1) / 2] + times[times.len() / 2]) / 2.0,

@@ -14,7 +14,7 @@ use terraline::word::{Class, Fixed, Overflow, Register, Registers, Rounding};
 
 use super::support::formats::requests;
 use super::support::recipe::recipes;
-use super::support::{assert_same, both, builtin, difference, drawn, is_under_ground, runner};
+use super::support::{assert_same, both, builtin, difference, drawn, runner};
 
 /// The machine of a scene in a sweep, where what fits the stock words fits.
 fn in_sweep<'a>(sweep: Sweep, scene: &'a Scene, plan: &'a Plan) -> Machine<'a> {
@@ -65,33 +65,6 @@ fn random_scenes_are_the_same_in_a_sweep_at_the_stock_formats() {
 }
 
 #[test]
-fn sweeps_that_wrap_are_drawn_alike() {
-    let (frames, refused) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let strategy = (recipes(), vec(requests(), 1..=3));
-    let result = runner(120).run(&strategy, |(recipe, formats)| {
-        let mut scene = recipe.scene();
-        scene.formats = formats;
-        let Ok(plan) = Plan::new(&scene, None, false) else {
-            refused.fetch_add(1, Relaxed);
-            return Ok(());
-        };
-        // Coarse registers may put the eye under the ground or not hold the map at all.
-        let Ok((processor, fast)) = both(&scene, &plan) else {
-            refused.fetch_add(1, Relaxed);
-            return Ok(());
-        };
-        frames.fetch_add(1, Relaxed);
-        match difference(&processor, &fast) {
-            None => Ok(()),
-            Some(difference) => Err(TestCaseError::fail(difference)),
-        }
-    });
-    result.unwrap();
-    println!("{frames:?} drawn, {refused:?} refused");
-    assert!(frames.load(Relaxed) > refused.load(Relaxed), "{refused:?} sweeps are refused");
-}
-
-#[test]
 fn sweeps_that_saturate_are_drawn() {
     let frames = AtomicUsize::new(0);
     let strategy = (recipes(), vec(requests(), 1..=3));
@@ -110,40 +83,6 @@ fn sweeps_that_saturate_are_drawn() {
     });
     result.unwrap();
     assert!(frames.load(Relaxed) > 30, "{frames:?} frames");
-}
-
-#[test]
-fn coarse_formats_draw_the_built_in_scenes_alike() {
-    let formats = [
-        (Class::Ground, 24, 8, Rounding::Floor),
-        (Class::Ground, 40, 12, Rounding::Stochastic),
-        (Class::Height, 26, 6, Rounding::TowardZero),
-        (Class::Weight, 9, 5, Rounding::NearestEven),
-        (Class::View, 14, 12, Rounding::Nearest),
-        (Class::Tone, 16, 4, Rounding::Stochastic),
-    ];
-    for name in super::support::SCENES {
-        let whole = {
-            let scene = builtin(name, 40, 30);
-            super::support::drawn(&scene, &super::support::plan(&scene)).expect("a frame")
-        };
-        for (class, width, point, rounding) in formats {
-            let mut scene = builtin(name, 40, 30);
-            let request = FormatRequest { width, point, rounding, overflow: Overflow::Wrap };
-            scene.formats = vec![(Registers::Class(class), request)];
-            let plan = super::support::plan(&scene);
-            let (processor, fast) = match both(&scene, &plan) {
-                Ok(frames) => frames,
-                Err(error) if is_under_ground(&error) => continue,
-                Err(error) => panic!("{name}, {class:?}: {error}"),
-            };
-            assert_same(&format!("{name}, {class:?}"), &processor, &fast);
-            // What was made coarse is coarse: the frame is another one.
-            if class == Class::View || class == Class::Ground {
-                assert!(difference(&whole, &processor).is_some(), "{name}, {class:?}");
-            }
-        }
-    }
 }
 
 #[test]

@@ -1,22 +1,20 @@
-//! Scenes at the edge of what a file may say: whatever is planned and set up is drawn without a
-//! panic in the fixed and in the real world, and alike by both engines.
-
-use std::panic::{AssertUnwindSafe, catch_unwind};
+//! Scenes at the edge of what a file may say: whatever is planned and set up is drawn.
 
 use glam::{DVec2, DVec3};
-use terraline::plan::Plan;
 use terraline::scene::{
     Bisection, Deformation, Extent, KernelShape, Outside, Scene, Stepper, StepperMode,
 };
 
-use super::support::{both, builtin, difference, draw_in_real, map, over, terrain};
+use crate::compared::{Compared, Draw};
+use crate::scenes::{builtin, map, over, terrain};
 
-fn hills() -> Scene {
+/// Low hills, seen from above.
+pub fn hills() -> Scene {
     over(map(12, 9, |i, j| ((i * 7 + j * 11) % 13) as f32), 19, 13)
 }
 
 /// Every corner case with its name.
-fn scenes() -> Vec<(String, Scene)> {
+pub fn scenes() -> Vec<(String, Scene)> {
     let mut all: Vec<(String, Scene)> = Vec::new();
     let mut add = |name: String, change: &dyn Fn(&mut Scene)| {
         let mut scene = hills();
@@ -111,60 +109,16 @@ fn scenes() -> Vec<(String, Scene)> {
     all
 }
 
-#[test]
-fn corner_cases_are_refused_or_drawn() {
-    let (mut drawn, mut refused, mut wrong) = (0, Vec::new(), Vec::new());
+/// All of them, pruned and with everything fitted.
+pub fn all(candidate: &Draw) {
+    let mut compared = Compared::default();
     for (name, scene) in scenes() {
         for full in [false, true] {
-            let attempt = catch_unwind(AssertUnwindSafe(|| {
-                let plan = Plan::new(&scene, None, full).map_err(|error| error.to_string())?;
-                let frames = both(&scene, &plan).map_err(|error| error.to_string())?;
-                let real = draw_in_real(&scene, &plan).map_err(|error| error.to_string())?;
-                assert_eq!(real.hit.len(), frames.0.hit.len());
-                Ok::<_, String>(frames)
-            }));
-            match attempt {
-                Err(_) => wrong.push(format!("{name}, full {full}: panicked")),
-                Ok(Err(error)) => refused.push(format!("{name}: {error}")),
-                Ok(Ok((processor, fast))) => {
-                    drawn += 1;
-                    if let Some(difference) = difference(&processor, &fast) {
-                        wrong.push(format!("{name}, full {full}: {difference}"));
-                    }
-                }
-            }
+            compared.scene(&name, &scene, full, candidate);
         }
     }
-    println!("{drawn} drawn; refused:\n{}", refused.join("\n"));
-    assert!(wrong.is_empty(), "{} failures:\n{}", wrong.len(), wrong.join("\n"));
-    assert!(drawn > 2 * refused.len(), "{drawn} drawn, refused:\n{}", refused.join("\n"));
-}
-
-#[test]
-fn what_is_refused_names_the_field_to_change() {
-    let mut wrong = Vec::new();
-    let mut refused = 0;
-    for (name, scene) in scenes() {
-        let Err(error) = Plan::new(&scene, None, false) else { continue };
-        refused += 1;
-        let message = error.to_string();
-        // The part of the scene that is out of bounds; moving the eye would not help the others.
-        let field = match name.split(' ').next() {
-            Some("cells" | "heights" | "base") => "surface.",
-            _ if name.ends_with("degrees") => "screen.",
-            Some("pixels" | "screen") => "screen.",
-            _ => "camera.position",
-        };
-        if message.contains('\n') || !message.starts_with(field) {
-            wrong.push(format!("{name} (expected {field}): {message}"));
-        }
-    }
-    // Within the places that are counted, but not within the steps.
-    let mut far = hills();
-    far.camera.position.x += 1e6;
-    far.stepper.fineness = 6;
-    let message = Plan::new(&far, None, false).expect_err("a long walk").to_string();
-    assert!(message.contains("2^26 are counted"), "{message}");
-    assert!(refused > 10, "{refused} scenes are refused");
-    assert!(wrong.is_empty(), "{} failures:\n{}", wrong.len(), wrong.join("\n"));
+    let refused = &compared.refused;
+    println!("refused:\n{}", refused.join("\n"));
+    assert!(compared.frames > 2 * refused.len(), "refused:\n{}", refused.join("\n"));
+    compared.finish(1000);
 }

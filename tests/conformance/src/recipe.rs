@@ -1,4 +1,5 @@
 //! Random scenes: small recipes that print and shrink well, and the scenes made of them.
+#![allow(missing_docs, reason = "fields are named as the scene's keys are")]
 
 use glam::{DVec2, DVec3};
 use proptest::collection::vec;
@@ -11,7 +12,7 @@ use terraline::scene::{
 };
 use terraline::word::format::hash;
 
-use super::{SHAPES, ground_under, map, over, terrain};
+use crate::scenes::{SHAPES, ground_under, map, over, terrain};
 
 /// What the nodes of a random map are.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -84,9 +84,6 @@ impl SurfacePlan {
 
     /// The walk over a height map, of a surface that is one.
     pub fn terrain(&self) -> Option<&TerrainPlan> {
-        match self {
-            Self::Terrain(terrain) => Some(terrain),
-            Self::Plane(_) => None,
-        }
+        if let Self::Terrain(terrain) = self { Some(terrain) } else { None }
     }
 }

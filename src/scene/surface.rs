@@ -63,10 +63,12 @@ pub(super) fn read(scene: &Fields<'_>) -> Result<Vec<Surface>, SceneError> {
 impl Surface {
     /// The height map, of a surface that is one.
     pub fn terrain(&self) -> Option<&Terrain> {
-        match self {
-            Self::Terrain(terrain) => Some(terrain),
-            Self::Plane(_) => None,
-        }
+        if let Self::Terrain(terrain) = self { Some(terrain) } else { None }
+    }
+
+    /// The same, to change it.
+    pub fn terrain_mut(&mut self) -> Option<&mut Terrain> {
+        if let Self::Terrain(terrain) = self { Some(terrain) } else { None }
     }
 
     /// Its smallest feature, scene units: the shorter side of a cell or a square.

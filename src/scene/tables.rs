@@ -136,10 +136,7 @@ impl Scene {
 
     /// The same, to change it.
     pub fn terrain_mut(&mut self) -> Option<&mut Terrain> {
-        self.surfaces.iter_mut().find_map(|surface| match surface {
-            Surface::Terrain(terrain) => Some(terrain),
-            Surface::Plane(_) => None,
-        })
+        self.surfaces.iter_mut().find_map(Surface::terrain_mut)
     }
 
     /// Reads a scene from its top level.

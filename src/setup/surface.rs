@@ -122,9 +122,6 @@ impl<W: Interpolating + Shading> Back<W> {
 
     /// The units of a height map, if they are.
     pub fn terrain(&self) -> Option<&TerrainUnits<W>> {
-        match self {
-            Self::Terrain(units) => Some(units),
-            Self::Plane(_) => None,
-        }
+        if let Self::Terrain(units) = self { Some(units) } else { None }
     }
 }

@@ -74,7 +74,7 @@ impl Render {
         outputs::check(self.outputs())?;
         let planned = self.scene.load()?;
         outputs::keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
-        let scene_text = self.scene_out.text(&self.scene, &planned)?;
+        let scene_text = self.scene_out.text(&planned)?;
         let pixels = planned.plan.geometry.columns as usize * planned.plan.geometry.lines as usize;
         let buffers = self.buffers.is_some() || self.picture.needs_buffers();
         // The oracle's frame has buffers always, the picture of errors holds as much.
@@ -116,13 +116,6 @@ impl Render {
         if cycles && self.engine != Engine::Processor {
             return Err(Stop::BadInput(
                 "--picture cycles: cycles are the processor's; add --engine processor".into(),
-            ));
-        }
-        if self.engine == Engine::Fast && !planned.world.wraps() {
-            return Err(Stop::BadInput(
-                "--engine fast: saturating registers cannot be entered at any step; add \
-                 --engine processor"
-                    .into(),
             ));
         }
         let refused = |error| planned.refused(&error);

@@ -117,11 +117,6 @@ impl SceneArgs {
         Ok(Planned { scene, plan, world, memories, named: of.to_owned(), invocation, framing })
     }
 
-    /// Whether registers have formats of their own, which no scene file of ours holds.
-    pub fn has_formats(&self) -> bool {
-        !self.format.is_empty()
-    }
-
     /// Whether a raster was asked for on the command line.
     #[cfg(feature = "window")]
     pub fn asks_for_size(&self) -> bool {

@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::Stop;
 use super::outputs::Named;
-use super::scene_args::{Planned, SceneArgs};
+use super::scene_args::Planned;
 use crate::sink;
 
 /// Where the chosen scene goes.
@@ -27,7 +27,7 @@ impl SceneOut {
     /// What is to be written there.
     ///
     /// Asked for before anything is drawn, so that a refusal leaves nothing behind.
-    pub fn text(&self, scene: &SceneArgs, planned: &Planned) -> Result<Option<String>, Stop> {
+    pub fn text(&self, planned: &Planned) -> Result<Option<String>, Stop> {
         let Some(path) = &self.scene_out else { return Ok(None) };
         let refused =
             |reason: &str| Err(Stop::BadInput(format!("--scene-out {}: {reason}", path.display())));
@@ -37,10 +37,7 @@ impl SceneOut {
                  built-in scene with `terraline scenes NAME`",
             );
         };
-        if scene.has_formats() {
-            return refused("--format is not written; leave it out, or write [format] by hand");
-        }
-        Ok(Some(framing.file(path)?))
+        Ok(Some(framing.file(&planned.scene, path)?))
     }
 
     /// Writes the text, if there is one.

@@ -98,11 +98,11 @@ impl<'a> Scan<'a> {
 }
 
 impl Machine<'_> {
-    /// An engine at a line. The fast engine draws worlds that wrap only, see
-    /// [`FixedWorld::wraps`](super::FixedWorld::wraps).
+    /// An engine at a line.
     ///
     /// # Errors
-    /// If the scene cannot be set up in the engine's world.
+    /// If the scene cannot be set up in the engine's world; for the fast engine also in worlds that
+    /// do not wrap, see [`FixedWorld::wraps`](super::FixedWorld::wraps).
     pub fn scan(&self, engine: Engine, wanted: Wanted) -> Result<Scan<'_>, SetupError> {
         let lines = wanted.first_line..self.plan.geometry.lines;
         let watched = self.world().can_overflow();
@@ -110,6 +110,7 @@ impl Machine<'_> {
             Engine::Processor => {
                 in_fixed!(&self.fixed, ready => self.processor(&ready.setup, lines, wanted, watched))
             }
+            Engine::Fast if !self.world().wraps() => return Err(SetupError::Saturating),
             Engine::Fast => {
                 in_fixed!(&self.fixed, ready => self.fast(ready, lines, wanted, watched))
             }

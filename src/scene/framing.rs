@@ -89,18 +89,18 @@ pub fn read(path: &Path, sets: &[String], size: Option<(u32, u32)>) -> Result<Fr
 }
 
 impl Framing {
-    /// The scene as a file at `target`, with the options applied and the map's path relative to it.
+    /// What became of the scene, as a file at `target` with the map's path relative to it.
     ///
     /// # Errors
     /// If no path leads from there to the map.
-    pub fn file(&self, target: &Path) -> Result<String, SceneError> {
+    pub fn file(&self, scene: &Scene, target: &Path) -> Result<String, SceneError> {
         let mut top = vec![
             "Chosen by terraline for a height file: the whole map from above one of its sides. \
              Lengths in scene units, angles in degrees; x east, y up, z south."
                 .to_owned(),
         ];
         top.extend(self.chosen.iter().map(|reason| format!("Note: {reason}.")));
-        let map = match self.scene.terrain() {
+        let map = match scene.terrain() {
             Some(terrain) if !terrain.is_built_in() => {
                 let map = self.folder.join(&terrain.source);
                 relative(&map, target).ok_or_else(|| SceneError::Unreadable {
@@ -114,7 +114,7 @@ impl Framing {
             }
             _ => String::new(),
         };
-        Ok(write::commented(&self.scene, &map, &top))
+        Ok(write::commented(scene, &map, &top))
     }
 }
 

@@ -25,6 +25,12 @@ pub enum SetupError {
     /// A plan that does not hold.
     #[error(transparent)]
     Plan(#[from] PlanError),
+    /// Registers that the fast engine cannot draw.
+    #[error(
+        "format: saturating registers cannot be entered at any step, as the fast engine does; draw \
+         them with --engine processor"
+    )]
+    Saturating,
     /// A value outside its register.
     #[error(
         "format: {value} does not fit register {register}; widen it or leave its format to the plan"

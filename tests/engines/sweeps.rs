@@ -9,6 +9,7 @@ use terraline::engine::{Engine, FixedWorld, Machine, Memories, Overflows, Wanted
 use terraline::plan::formats::Formats;
 use terraline::plan::{Plan, WordClass};
 use terraline::scene::{FormatRequest, Scene, WordSize};
+use terraline::setup::SetupError;
 use terraline::word::sweep::Sweep;
 use terraline::word::{Class, Fixed, Overflow, Register, Registers, Rounding};
 
@@ -98,6 +99,8 @@ fn saturating_formats_are_told_apart() {
     let plan = super::support::plan(&scene);
     let world = FixedWorld::of(&scene, &plan).expect("a sweep");
     assert!(!world.wraps());
+    let machine = super::support::machine(&scene, &plan).expect("a machine");
+    assert!(matches!(machine.frame(Engine::Fast, false), Err(SetupError::Saturating)));
     // Nothing saturates in registers that the plan has proved wide enough.
     let saturated = drawn(&scene, &plan).expect("a frame");
     scene.formats.clear();

@@ -15,6 +15,7 @@ use terraline::frame::Hit;
 use terraline::oracle::Oracle;
 use terraline::plan::{Plan, PlanError};
 use terraline::scene::{Plane, Scene, Surface, WordSize};
+use terraline::study::error::{ErrorReport, Sample};
 
 fn plane(normal: DVec3, distance: f64, checker: f64) -> Surface {
     Surface::Plane(Plane { normal: normal.normalize(), distance, checker })
@@ -134,4 +135,51 @@ fn random_planes_are_drawn_alike_and_as_the_oracle_says() {
     println!("{pixels} pixels, {missed} not as the oracle says, {later} of a later plane");
     assert!(pixels > 40_000 && later > pixels / 10);
     assert!(missed * 10_000 < pixels, "{missed} of {pixels} pixels are not as the oracle says");
+}
+
+#[test]
+fn studies_follow_the_surface_that_shows() {
+    let (wall, floor) = (plane(DVec3::X, 60.0, 8.0), plane(DVec3::Y, 0.0, 8.0));
+    let scene = scene(vec![wall.clone(), floor.clone()], WordSize::Narrow);
+    let plan = plan(&scene);
+    let machine = machine(&scene, &plan).expect("a machine");
+
+    // Every surface has its stages, and none is counted twice.
+    let all = Sample::all(&plan);
+    let cost = machine.cost(&all, &all).expect("a cost");
+    let names: Vec<_> = cost.units.iter().map(|unit| unit.name).collect();
+    let each = ["projector", "divider", "shader", "depth"];
+    assert_eq!(names, [&each[..], &each[..], &["frame"]].concat());
+    let projectors: Vec<f64> = [0, 4].map(|at| cost.units[at].additions_per_pixel).into();
+    // One accumulator changes along a line: 39 additions on 40 columns.
+    assert_eq!(projectors, [0.975, 0.975]);
+    // The comparison, where both planes show.
+    let compared = cost.units[7].additions_per_pixel;
+    assert!(
+        cost.units[3].additions_per_pixel == 0.0 && (0.2..1.0).contains(&compared),
+        "{compared}"
+    );
+
+    let errors = machine.errors(&all).expect("errors");
+    let report = ErrorReport::new(&all, &errors, scene.unit_m);
+    let total = report.total_px.expect("pixels");
+    assert!(total.max < 0.5, "{total:?}");
+
+    // The columns in the middle see the wall over the floor.
+    let frame = machine.frame(Engine::Processor, true).expect("a frame");
+    let normals = &frame.buffers.as_ref().expect("buffers").normal;
+    let mut seen = [0, 0];
+    for at in (0..frame.hit.len()).filter(|&at| frame.hit[at] == Hit::Surface).step_by(7) {
+        let found = machine.explain((at % 40) as u32, (at / 40) as u32).expect("a pixel");
+        let along = usize::from(normals[at] == [0.0, 1.0, 0.0]);
+        seen[along] += 1;
+        assert_eq!((found.hit, found.color), ("surface", frame.color[at]));
+        for what in ["view_x", "denominator", "entry_x", "entry_z"] {
+            let row = found.rows.iter().find(|row| row.what == what).expect(what);
+            let oracle = row.oracle.expect("a closed form");
+            let apart = (row.value - oracle).abs();
+            assert!(apart <= 1e-3 * oracle.abs().max(1.0), "{what}: {} {oracle}", row.value);
+        }
+    }
+    assert!(seen.iter().all(|&pixels| pixels > 10), "{seen:?} pixels of wall and floor");
 }

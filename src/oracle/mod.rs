@@ -93,6 +93,8 @@ pub struct Sighting {
     pub normal: DVec3,
     /// sRGB bytes.
     pub color: [u8; 3],
+    /// The surface that is seen, by its place in the scene; on a miss the one that says why.
+    pub surface: usize,
     /// The ray comes closer to the surface somewhere up to its hit than rounding can tell: the
     /// outcome may rightly be another one.
     pub tangent: bool,
@@ -155,6 +157,12 @@ impl Oracle {
         self.surfaces.iter().filter_map(|surface| surface.height(x, z)).reduce(f64::max)
     }
 
+    /// Height of one surface of the scene over (x, z), as [`Oracle::surface_height`].
+    #[must_use]
+    pub fn height_of(&self, surface: usize, x: f64, z: f64) -> Option<f64> {
+        self.surfaces.get(surface)?.height(x, z)
+    }
+
     /// Unit normal `(−∂y/∂x, 1, −∂y/∂z)` over (x, z), of several surfaces that of the highest; `None`
     /// outside a map that ends and in a hole. A plane has its own normal everywhere.
     #[must_use]
@@ -170,21 +178,21 @@ impl Oracle {
     /// What is seen at a line and column: the nearest surface, of equally near ones the first.
     #[must_use]
     pub fn pixel(&self, line: f64, column: f64) -> Sighting {
-        self.nearest(&self.view.ray(line, column)).1
+        self.nearest(&self.view.ray(line, column))
     }
 
-    /// The surface that a ray sees, by its place in the scene, and the sighting.
-    fn nearest(&self, ray: &Ray) -> (usize, Sighting) {
-        let sights = self.surfaces.iter().map(|surface| surface.sight(ray, &self.look));
-        let nearer = |a: (usize, Sighting), b: (usize, Sighting)| {
-            let tangent = a.1.tangent || b.1.tangent;
-            let (at, seen) = if b.1.is_before(&a.1) { b } else { a };
-            (at, Sighting { tangent, ..seen })
+    /// What a ray sees of the nearest surface.
+    fn nearest(&self, ray: &Ray) -> Sighting {
+        let sight = |(at, surface): (usize, &Arc<dyn Seen>)| Sighting {
+            surface: at,
+            ..surface.sight(ray, &self.look)
         };
-        let Some(nearest) = sights.enumerate().reduce(nearer) else {
-            unreachable!("a scene has a surface")
+        let nearer = |a: Sighting, b: Sighting| {
+            let tangent = a.tangent || b.tangent;
+            Sighting { tangent, ..if b.is_before(&a) { b } else { a } }
         };
-        nearest
+        let nearest = self.surfaces.iter().enumerate().map(sight).reduce(nearer);
+        nearest.unwrap_or_else(|| unreachable!("a scene has a surface"))
     }
 
     /// How often the ray of a pixel goes into the ground or out of it strictly between two λ, in
@@ -201,10 +209,10 @@ impl Oracle {
     #[must_use]
     pub fn same_sheet(&self, line: f64, column: f64, lambda_other: f64) -> bool {
         let ray = self.view.ray(line, column);
-        let (seen, sighting) = self.nearest(&ray);
+        let sighting = self.nearest(&ray);
         let (from, to) = (sighting.lambda.min(lambda_other), sighting.lambda.max(lambda_other));
         self.surfaces.iter().enumerate().all(|(at, surface)| {
-            if at == seen {
+            if at == sighting.surface {
                 surface.same_sheet(&ray, &self.look, lambda_other)
             } else {
                 surface.crossings(&ray, from, to) == 0
@@ -222,6 +230,7 @@ impl Sighting {
             point: DVec3::NAN,
             normal: DVec3::NAN,
             color: shade::outcome_color(colors, hit).unwrap_or(colors.sky),
+            surface: 0,
             tangent,
         }
     }

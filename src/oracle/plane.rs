@@ -20,6 +20,7 @@ impl Seen for Plane {
             point,
             normal: self.normal,
             color: shade::plane_color(&look.colors, self, point, contrast),
+            surface: 0,
             tangent: false,
         }
     }

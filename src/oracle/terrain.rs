@@ -20,7 +20,7 @@ impl Seen for HeightField {
         let color = shade::outcome_color(&look.colors, hit).unwrap_or_else(|| {
             shade::terrain_color(&look.colors, &look.light, self.range(), point.y, normal)
         });
-        Sighting { hit, lambda: outcome.lambda, point, normal, color, tangent }
+        Sighting { hit, lambda: outcome.lambda, point, normal, color, surface: 0, tangent }
     }
 
     fn crossings(&self, ray: &Ray, from: f64, to: f64) -> usize {

@@ -119,6 +119,8 @@ struct Seen {
     hit: Hit,
     point: Option<DVec3>,
     color: [u8; 3],
+    /// The surface that shows, by its place in the scene.
+    surface: usize,
 }
 
 /// Lines that are compared with the oracle at once, on all threads.
@@ -202,6 +204,7 @@ impl WithSetup for Look<'_> {
                 hit: line.hit[i],
                 point: reader.pixel(line, i).map(|pixel| pixel.point()),
                 color: line.color[i],
+                surface: line.owner[i] as usize,
             });
             lines.push(seen.collect());
         });
@@ -238,8 +241,9 @@ fn one(oracle: &Oracle, line: u32, column: u32, fixed: Seen, real: Seen) -> Pixe
     }
     let centre = DVec2::new(j, k);
     let placed = |seen: Seen| {
-        let point = (seen.hit == sighting.hit).then_some(seen.point).flatten()?;
-        let y = oracle.surface_height(point.x, point.z).unwrap_or(point.y);
+        let same = (seen.hit, seen.surface) == (sighting.hit, sighting.surface);
+        let point = same.then_some(seen.point).flatten()?;
+        let y = oracle.height_of(seen.surface, point.x, point.z).unwrap_or(point.y);
         let point = DVec3::new(point.x, y, point.z);
         let (line, column) = oracle.project(point)?;
         let lambda = (point - oracle.eye()).length() / oracle.direction(j, k).length();

@@ -33,8 +33,6 @@ use crate::frame::Hit;
 use crate::word::{Interpolating, Register, Rescale, Site, Word, World};
 pub use place::Place;
 
-
-
 /// What the stepper is.
 pub const DESCRIPTION: Description = Description {
     name: "stepper",

@@ -76,7 +76,9 @@ pub use cli::main;
 pub use engine::{
     Band, Engine, FixedWorld, Machine, Memories, Overflows, Scan, SetUpTime, Stop, Wanted,
 };
-pub use frame::{Buffers, Frame, Hit, Pixel};
+pub use frame::{
+    BufferRow, Buffers, Dtype, Element, Frame, Giver, Hit, Pixel, Scalars, TABLE as BUFFERS,
+};
 pub use oracle::{Oracle, Sighting};
 pub use plan::{Fit, Plan, PlanError, SurfacePlan, UnitPlan, WordClass};
 pub use setup::SetupError;

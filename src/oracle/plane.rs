@@ -3,45 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::camera::Ray;
-use super::{Look, Seen, Sighting, shade};
-use crate::frame::Hit;
 use crate::scene::Plane;
-
-impl Seen for Plane {
-    fn sight(&self, ray: &Ray, look: &Look) -> Sighting {
-        let Some(lambda) = plane_lambda(self, ray) else {
-            return Sighting::miss(&look.colors, Hit::Sky, false);
-        };
-        let point = ray.at(lambda);
-        let contrast = shade::plane_contrast(self, ray, look.grain);
-        Sighting {
-            hit: Hit::Surface,
-            lambda,
-            point,
-            normal: self.normal,
-            color: shade::plane_color(&look.colors, self, point, contrast),
-            surface: 0,
-            tangent: false,
-        }
-    }
-
-    fn crossings(&self, ray: &Ray, from: f64, to: f64) -> usize {
-        let lambda = plane_lambda(self, ray);
-        usize::from(lambda.is_some_and(|lambda| from < lambda && lambda < to))
-    }
-
-    fn same_sheet(&self, ray: &Ray, _: &Look, other: f64) -> bool {
-        plane_lambda(self, ray).is_some() && other.is_finite() && other >= 0.0
-    }
-
-    fn height(&self, x: f64, z: f64) -> Option<f64> {
-        plane_height(self, x, z)
-    }
-
-    fn normal(&self, _: f64, _: f64) -> Option<DVec3> {
-        Some(self.normal)
-    }
-}
 
 /// Two unit vectors (e_s, e_t) in the plane with unit normal n, along which the checker runs:
 /// e_s along n × z where |n_z| < 0.9 and along n × x elsewhere, e_t = e_s × n.

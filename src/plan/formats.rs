@@ -1,7 +1,8 @@
 //! Register formats of a machine: the stock ones of a word size, overridden by `[format]` and
 //! `--format`.
 
-use super::{Plan, PlanError, WordClass};
+use super::word_class::WordClass;
+use super::{Plan, PlanError};
 use crate::scene::{FormatRequest, Registers, Scene};
 use crate::word::sweep::{Sweep, SweepFormat};
 use crate::word::{Class, Fixed, Overflow, Register, Rounding};

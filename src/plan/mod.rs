@@ -7,10 +7,12 @@ mod fitted;
 pub mod formats;
 pub mod geometry;
 mod plane;
+mod planned;
 mod proof;
 mod surface;
 mod terrain;
 pub mod units;
+mod word_class;
 mod words;
 
 use crate::scene::{Scene, Screen};
@@ -19,10 +21,11 @@ use words::Choice;
 
 pub use fitted::Fit;
 pub use plane::PlanePlan;
-pub use surface::{Projection, SurfacePlan};
+pub use planned::Projection;
+pub use surface::SurfacePlan;
 pub use terrain::TerrainPlan;
 pub use units::UnitPlan;
-pub use words::WordClass;
+pub use word_class::WordClass;
 
 /// Why a scene cannot be planned.
 #[derive(Debug, thiserror::Error)]

@@ -6,8 +6,8 @@ use super::fitted::{Fit, UnitFit};
 use super::formats::Formats;
 use super::geometry::{Geometry, LinearScalar, LinearVector};
 use super::proof::{Proof, Refusal, in_pixels};
-use super::surface::{Planned, Projection};
-use super::words::{LARGEST_PLACE, WordClass};
+use super::planned::{Planned, Projection};
+use super::word_class::{LARGEST_PLACE, WordClass};
 use crate::scene::Plane;
 use crate::word::Register;
 

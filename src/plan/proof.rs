@@ -3,7 +3,7 @@
 use super::PlanError;
 use super::formats::Formats;
 use super::geometry::Geometry;
-use super::words::LARGEST_PLACE;
+use super::word_class::LARGEST_PLACE;
 use crate::word::Register;
 
 /// A claim that does not hold.

@@ -1,12 +1,10 @@
-//! A planned surface: what the rest of the program asks of it, whatever its kind.
+//! The kinds of planned surfaces.
 
-use super::fitted::UnitFit;
-use super::formats::Formats;
-use super::geometry::{Geometry, LinearScalar, LinearVector};
+use super::geometry::Geometry;
 use super::plane::PlanePlan;
-use super::proof::{Proof, Refusal};
+use super::planned::{Planned, Projection};
 use super::terrain::TerrainPlan;
-use super::words::WordClass;
+use super::word_class::WordClass;
 use crate::scene::{Scene, Surface};
 
 /// A planned surface, by its kind.
@@ -16,41 +14,6 @@ pub enum SurfacePlan {
     Terrain(Box<TerrainPlan>),
     /// A plane, met by one ratio.
     Plane(PlanePlan),
-}
-
-/// The lines of sight as a surface's registers take them, and the plane of its ratio.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Projection {
-    /// V along the axes of the registers, in their units.
-    pub view: LinearVector,
-    /// `G = n·V` (equation 8; thesis 2.15).
-    pub g: LinearScalar,
-    /// `F = d − n·r_h`, in the units of G.
-    pub f: f64,
-    /// The eye along the axes of the ratio, in their units.
-    pub eye: [f64; 2],
-    /// Quotients lie within ±2^range of these units.
-    pub range: u32,
-    /// Whether the ratio is taken: the divider is fitted.
-    pub divides: bool,
-    /// Whether rays are stepped, which takes the third component of V.
-    pub steps: bool,
-}
-
-/// What a kind of surface answers.
-pub(super) trait Planned {
-    /// What the machine counts in and no format can mend.
-    fn check_counters(&self) -> Result<(), Refusal>;
-
-    /// Ranges and roundings in registers of these formats.
-    fn proof(&self, geometry: &Geometry, formats: &Formats<'_>) -> Proof;
-
-    /// Its projection.
-    fn projection(&self, geometry: &Geometry) -> Projection;
-
-    /// Its units in the order of the data flow, with those that it does without: idle in a full
-    /// machine.
-    fn units(&self, geometry: &Geometry, full: bool) -> Vec<UnitFit>;
 }
 
 impl SurfacePlan {

@@ -4,7 +4,8 @@ use super::error::{SceneError, list, nearest};
 use super::field::{Field, Fields};
 use super::kind::Kind;
 use super::table::{Table, braces, open, table};
-use super::value::{Value, Words};
+use super::value::Value;
+use super::words::Words;
 use super::writer::Writer;
 use crate::word::{Class, Overflow, Registers, Rounding};
 

@@ -2,7 +2,7 @@
 
 use super::kind::{Kind, LENGTH};
 use super::table::{table, words};
-use super::value::Words;
+use super::words::Words;
 
 table! {
     /// Clock and memory of the emulated machine, and the word size asked for.

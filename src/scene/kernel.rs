@@ -2,7 +2,7 @@
 
 use super::kind::Kind;
 use super::table::{Declared, table, words};
-use super::value::Words;
+use super::words::Words;
 
 table! {
     /// The finite function and its deformation.

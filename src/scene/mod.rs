@@ -44,6 +44,7 @@ mod tables;
 mod terrain;
 mod tree;
 mod value;
+mod words;
 pub mod write;
 mod writer;
 

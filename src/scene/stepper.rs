@@ -4,7 +4,8 @@ use super::error::SceneError;
 use super::field::Field;
 use super::kind::Kind;
 use super::table::{table, words};
-use super::value::{Value, Words, quoted, word_or};
+use super::value::{Value, quoted, word_or};
+use super::words::Words;
 
 table! {
     /// How a ray walks over the map.

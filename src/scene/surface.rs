@@ -6,7 +6,7 @@ use super::kind::Key;
 use super::plane::Plane;
 use super::table::{Declaration, Table, keys, words};
 use super::terrain::{Terrain, TerrainKeys};
-use super::value::Words;
+use super::words::Words;
 use super::writer::Writer;
 
 /// What the rays meet.

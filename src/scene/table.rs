@@ -207,7 +207,7 @@ macro_rules! words {
             $( $(#[$doc])* $variant, )+
         }
 
-        impl $crate::scene::value::Words for $name {
+        impl $crate::scene::words::Words for $name {
             const WORDS: &'static [(&'static str, Self)] = &[$( ($word, Self::$variant) ),+];
         }
     };

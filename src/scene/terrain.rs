@@ -13,7 +13,7 @@ use super::maps::BUILTIN;
 use super::nodata::{self, NoData};
 use super::shown::shown;
 use super::table::{Table, keys, table, words};
-use super::value::Words;
+use super::words::Words;
 use super::writer::Writer;
 
 /// A height map in the scene.

@@ -7,6 +7,7 @@ use super::field::Field;
 use super::kind::{FARTHEST, Kind, SMALLEST};
 use super::shown::shown;
 use super::tree;
+use super::words::Words;
 use super::writer::{degrees, direction, is_unit};
 
 /// A type of the scene that is one value in the file. What is written reads back in every bit.
@@ -102,28 +103,6 @@ impl<T: Value> Value for Option<T> {
 
     fn write(&self, kind: &Kind) -> String {
         self.as_ref().map_or_else(String::new, |value| value.write(kind))
-    }
-}
-
-/// An enum that the file names by words.
-pub(super) trait Words: Copy + PartialEq + 'static {
-    /// Every word with what it stands for.
-    const WORDS: &'static [(&'static str, Self)];
-
-    /// The word for a value.
-    fn word(self) -> &'static str {
-        // All variants have one.
-        Self::WORDS.iter().find(|(_, value)| *value == self).map_or("", |(word, _)| *word)
-    }
-
-    /// Any of the words.
-    fn kind() -> Kind {
-        Self::kind_without(&[])
-    }
-
-    /// As `kind`, with words that the format will know one day.
-    fn kind_without(unbuilt: &'static [&'static str]) -> Kind {
-        Kind::Word(Self::WORDS.iter().map(|(word, _)| *word).collect(), unbuilt)
     }
 }
 

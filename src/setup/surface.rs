@@ -50,7 +50,9 @@ const IDLE: [Idle; 2] = [
 
 /// The depth register of the surface with this index; a single surface needs none.
 fn depth(plan: &Plan, at: usize) -> Option<Depth> {
-    let last = plan.surfaces.len() - 1;
+    if plan.surfaces.len() < 2 {
+        return None;
+    }
     // 1/λ is the denominator without its scale; the register holds the greatest of all surfaces. One
     // that is seen edge-on has no denominator and no scale.
     let scale = |surface: &SurfacePlan| {
@@ -60,7 +62,7 @@ fn depth(plan: &Plan, at: usize) -> Option<Depth> {
     let coarsest = plan.surfaces.iter().filter_map(scale).min();
     let own = scale(&plan.surfaces[at]);
     let shift = own.zip(coarsest).map_or(0, |(own, coarsest)| own.abs_diff(coarsest));
-    (last > 0).then_some(Depth { surface: at as u32, last: at == last, shift })
+    Some(Depth { surface: at as u32, last: at + 1 == plan.surfaces.len(), shift })
 }
 
 impl<W: Complete> SurfaceUnits<W> {

@@ -122,7 +122,7 @@ fn remedy(error: &io::Error) -> &'static str {
 ///
 /// # Errors
 /// As [`write_atomically`].
-#[cfg(feature = "cli")]
+#[cfg(any(feature = "cli", feature = "parts"))]
 pub fn check_writable(path: &Path) -> Result<(), SinkError> {
     match Target::resolve(path)? {
         Target::Direct => Ok(()),

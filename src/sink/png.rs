@@ -60,7 +60,7 @@ pub fn write(
 ///
 /// # Errors
 /// [`ReadError`] when the file is missing, is no PNG, is damaged or cut short, has more than
-/// [`MAX_SIDE`] pixels on a side, has 16 bits a channel, or has transparent pixels.
+/// 16384 pixels on a side, has 16 bits a channel, or has transparent pixels.
 pub fn read(path: &Path) -> Result<Image, ReadError> {
     let file = File::open(path).map_err(|error| ReadError::open(path, &error))?;
     let mut reader = ImageReader::with_format(BufReader::new(file), ImageFormat::Png);

@@ -4,7 +4,7 @@ use super::TerrainPlan;
 use crate::plan::ALL_BITS;
 use crate::plan::fitted::{Fit, UnitFit};
 use crate::plan::geometry::Geometry;
-use crate::plan::words::WordClass;
+use crate::plan::word_class::WordClass;
 use crate::scene::{Deformation, Kernel, KernelShape, Scene, StepperMode, Terrain};
 use crate::word::Register as R;
 

@@ -3,7 +3,7 @@
 use super::error::MapError;
 use super::georeference::Georeference;
 use super::map::HeightMap;
-use crate::scene::value::Words;
+use crate::scene::words::Words;
 
 /// How the samples of a file stand for heights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

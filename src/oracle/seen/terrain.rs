@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
-use super::camera::Ray;
-use super::height_field::HeightField;
-use super::{Look, Seen, Sighting, outcome, shade};
+use super::{Look, Seen, Sighting};
+use crate::oracle::camera::Ray;
+use crate::oracle::height_field::HeightField;
+use crate::oracle::{outcome, shade};
 
 impl Seen for HeightField {
     fn sight(&self, ray: &Ray, look: &Look) -> Sighting {

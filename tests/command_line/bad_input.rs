@@ -114,8 +114,6 @@ fn height_files_that_are_none() {
     }
     let scene_out = ["--scene-out", "scene.toml"];
     render(&folder, &[&["flight"], &scene_out[..]].concat(), &["--scene-out", "scenes NAME"]);
-    let format = ["sound.asc", "--format", "ground=24.8"];
-    render(&folder, &[&format[..], &scene_out].concat(), &["--format"]);
     render(&folder, &["sound.asc", "--scene-out", "out.png"], &["--scene-out", "same file"]);
     render(&folder, &["sound.asc", "--scene-out", "sound.asc"], &["sound.asc", "overwritten"]);
     render(&folder, &["sound.asc", "--scene-out", "no/scene.toml"], &["no folder"]);

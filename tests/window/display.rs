@@ -151,7 +151,6 @@ fn a_height_file_is_looked_over() {
         (&["--scene-out", "no/no.toml"], "no/no.toml"),
         (&["--scene-out", "maps/tile.png"], "maps/tile.png"),
         (&["--scene-out", "no.png", "--frames", "1", "--screenshot", "./no.png"], "two names"),
-        (&["--scene-out", "no.toml", "--format", "ground=24.8"], "--format"),
     ] {
         let output = terraline(folder.path(), None, &[&view[..], options].concat());
         let stderr = String::from_utf8_lossy(&output.stderr);

@@ -161,6 +161,10 @@ impl Oracle {
     #[must_use]
     pub fn same_sheet(&self, line: f64, column: f64, lambda_other: f64) -> bool {
         let ray = self.view.ray(line, column);
+        if let [surface] = &self.surfaces[..] {
+            // Nothing can stand before it, so that its own crossings are all that is asked.
+            return surface.same_sheet(&ray, &self.look, lambda_other);
+        }
         let sighting = self.nearest(&ray);
         let (from, to) = (sighting.lambda.min(lambda_other), sighting.lambda.max(lambda_other));
         self.surfaces.iter().enumerate().all(|(at, surface)| {

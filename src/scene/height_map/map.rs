@@ -10,6 +10,7 @@ pub struct HeightMap {
     /// Row by row, row 0 north.
     samples: Vec<f32>,
     range: (f32, f32),
+    voids: usize,
 }
 
 impl HeightMap {
@@ -24,7 +25,8 @@ impl HeightMap {
             .iter()
             .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s)));
         assert!(range.0.is_finite() && range.1.is_finite());
-        Self { columns, rows, samples, range }
+        let voids = samples.iter().filter(|sample| sample.is_nan()).count();
+        Self { columns, rows, samples, range, voids }
     }
 
     /// Nodes in x.
@@ -49,7 +51,7 @@ impl HeightMap {
 
     /// Number of nodes without data.
     pub fn voids(&self) -> usize {
-        self.samples.iter().filter(|sample| sample.is_nan()).count()
+        self.voids
     }
 
     /// Lowest and highest sample of the nodes with data.

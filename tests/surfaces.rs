@@ -14,8 +14,9 @@ use terraline::engine::Engine;
 use terraline::frame::Hit;
 use terraline::oracle::Oracle;
 use terraline::plan::{Plan, PlanError};
-use terraline::scene::{Plane, Scene, Surface, WordSize};
+use terraline::scene::{FormatRequest, Plane, Scene, Surface, WordSize};
 use terraline::study::error::{ErrorReport, Sample};
+use terraline::word::{Class, Overflow, Registers, Rounding};
 
 fn plane(normal: DVec3, distance: f64, checker: f64) -> Surface {
     Surface::Plane(Plane { normal: normal.normalize(), distance, checker })
@@ -72,7 +73,26 @@ fn of_equally_near_planes_the_first_shows() {
 fn a_height_map_does_not_compete_yet() {
     let mut scene = builtin("overview", 8, 8);
     scene.surfaces.push(plane(DVec3::Y, 0.0, 8.0));
-    assert!(matches!(Plan::new(&scene, None, false), Err(PlanError::SeveralSurfaces)));
+    refused(&scene, "height map");
+}
+
+#[test]
+fn several_surfaces_have_stock_formats() {
+    let planes = vec![plane(DVec3::Y, 0.0, 8.0), plane(DVec3::X, 60.0, 8.0)];
+    let mut scene = scene(planes, WordSize::Auto);
+    assert!(Plan::new(&scene, None, false).is_ok());
+    let (rounding, overflow) = (Rounding::default(), Overflow::default());
+    let request = FormatRequest { width: 24, point: 8, rounding, overflow };
+    scene.formats = vec![(Registers::Class(Class::Ground), request)];
+    refused(&scene, "overflows");
+}
+
+fn refused(scene: &Scene, word: &str) {
+    let error = Plan::new(scene, None, false).expect_err("refused");
+    assert!(
+        matches!(error, PlanError::SeveralSurfaces(reason) if reason.contains(word)),
+        "{error}"
+    );
 }
 
 /// Two to four planes around the camera of the built-in plane, at least a unit away from the eye.

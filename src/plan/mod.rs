@@ -51,12 +51,9 @@ pub enum PlanError {
         /// Height of the surface there.
         ground: f64,
     },
-    /// A height map among several surfaces.
-    #[error(
-        "surface: a height map beside other surfaces is not built yet: its depth is no register; \
-         keep one [[surface]]"
-    )]
-    SeveralSurfaces,
+    /// Several surfaces, and why they cannot compete.
+    #[error("surface: {0}; keep one [[surface]]")]
+    SeveralSurfaces(&'static str),
     /// An unknown screen was named.
     #[error("--screen {asked}: the scene has no such screen; it has {known}")]
     UnknownScreen {
@@ -109,8 +106,19 @@ impl Plan {
             })?,
         }
         .clone();
-        if scene.surfaces.len() > 1 && scene.terrain().is_some() {
-            return Err(PlanError::SeveralSurfaces);
+        if scene.surfaces.len() > 1 {
+            let refused = |reason| Err(PlanError::SeveralSurfaces(reason));
+            if scene.terrain().is_some() {
+                return refused(
+                    "a height map beside other surfaces is not built yet: its depth is no register",
+                );
+            }
+            if !scene.formats.is_empty() {
+                return refused(
+                    "several surfaces in formats of the scene's own are not built yet: overflows of \
+                     what is hidden would not be counted",
+                );
+            }
         }
         let geometry = Geometry::new(&scene.camera, &screen);
         let Choice { words, surfaces, why: words_why, not_proved } =

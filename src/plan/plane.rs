@@ -140,11 +140,11 @@ impl Planned for PlanePlan {
         };
         let without = |(name, saves)| {
             let why = if full {
-                "--full; not needed: idle, the scene has no height map"
+                "idle, the scene has no height map"
             } else {
                 "the scene has no height map"
             };
-            UnitFit { name, fit: Fit { fitted: full, why: why.into() }, registers: &[], saves }
+            UnitFit { name, fit: Fit::where_needed(false, full, why), registers: &[], saves }
         };
         let idle = [
             ("stepper", "all steps of all rays"),

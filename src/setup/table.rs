@@ -1,11 +1,10 @@
 //! The register table: what each register holds, in which unit, by which equation, and how far it
-//! can be from the exact value. The tests generate docs/registers.md
-//! from it.
+//! can be from the exact value. The tests generate docs/registers.md from it.
 
 use crate::word::Register;
 
 /// One row of the table. The hardware's package and docs/registers.md are made of it.
-#[cfg_attr(not(feature = "parts"), allow(dead_code))]
+#[cfg_attr(not(feature = "parts"), expect(dead_code, reason = "only parts read all of it"))]
 #[derive(Clone, Copy, Debug)]
 pub struct RegisterRow {
     /// The register that the row is about.

@@ -7,11 +7,12 @@
 //! terraline_conformance::conforms!(fast, by_fast_engine);
 //!
 //! fn by_fast_engine(machine: &Machine<'_>) -> Option<Frame> {
-//!     machine.frame(Engine::Fast, true).ok()
+//!     Some(machine.frame(Engine::Fast, true).expect("a frame"))
 //! }
 //! ```
 //!
-//! `None` says that it does not draw such scenes. One that draws less than half of them fails.
+//! `None` says that it does not draw such scenes, and one that draws less than half of them fails. A
+//! panic is a difference.
 
 #[doc(hidden)]
 pub mod compared;
@@ -28,15 +29,12 @@ pub mod scenes;
 
 pub use compared::Draw;
 
-/// The tests of an engine, in a module of its own.
+/// The tests of an engine, in a module of its own, from the function that draws with it.
 #[macro_export]
 macro_rules! conforms {
-    ($engine:ident, $draw:expr) => {
+    ($engine:ident, $draw:ident) => {
         mod $engine {
-            #[allow(unused_imports)]
-            use super::*;
-
-            const DRAW: &$crate::Draw = &$draw;
+            const DRAW: &$crate::Draw = &super::$draw;
 
             #[test]
             fn draws_built_in_scenes() {

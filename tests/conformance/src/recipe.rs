@@ -1,5 +1,5 @@
 //! Random scenes: small recipes that print and shrink well, and the scenes made of them.
-#![allow(missing_docs, reason = "fields are named as the scene's keys are")]
+#![expect(missing_docs, reason = "fields are named as the scene's keys are")]
 
 use glam::{DVec2, DVec3};
 use proptest::collection::vec;

@@ -5,7 +5,7 @@
 mod tiff_file;
 
 use peak_alloc::PeakAlloc;
-use terraline::scene::Encoding;
+use terraline::scene::Interpretation;
 use terraline::scene::height_map::source;
 use tiff_file::{Form, Kind, LONG, Layout, TiffFile, pack};
 
@@ -22,7 +22,7 @@ fn check(what: &str, bytes: &[u8], name: &str) -> bool {
     std::fs::write(&path, bytes).expect("a file");
     let before = PEAK.current_usage();
     PEAK.reset_peak_usage();
-    let read = source::read(&path, Encoding::Stored);
+    let read = source::read(&path, &Interpretation::default());
     let taken = PEAK.peak_usage() - before;
     let decoded = read.as_ref().map_or(0, |file| 4 * file.map.samples().len());
     let honest = bytes.len().max(decoded);

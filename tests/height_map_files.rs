@@ -128,7 +128,7 @@ fn a_file_cut_anywhere_gives_no_map() {
     for length in (0..jacksboro.len()).step_by(97) {
         assert_says(&message(&jacksboro[..length]), &["hills.png", ";"]);
     }
-    assert_says(&message(&whole[..whole.len() / 2]), &["cut short", "again"]);
+    assert_says(&message(&whole[..whole.len() / 2]), &["cut short", "give the whole file"]);
     assert_says(&message(&[]), &["empty"]);
 }
 

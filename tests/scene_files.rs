@@ -115,7 +115,7 @@ fn an_empty_file_is_the_default_scene() {
     assert_eq!(described(&scene), described(&Scene::of(scene.surfaces[0].clone())));
     assert_eq!((scene.name.as_str(), scene.screens.len()), ("my", 1));
     let terrain = terrain(&scene);
-    assert_eq!((terrain.source.as_str(), terrain.cell), ("builtin:jacksboro", DVec2::ONE));
+    assert_eq!((terrain.source.file.as_str(), terrain.cell), ("builtin:jacksboro", DVec2::ONE));
     assert_eq!((terrain.map.columns(), terrain.map.rows()), (344, 344));
     assert_eq!((terrain.map.sample(232, 168), terrain.node(232, 168)), (316.0, 2.0));
     // All but the camera of overview.toml shows the default values.

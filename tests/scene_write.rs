@@ -6,7 +6,7 @@ use support::described;
 use support::keys::{file_with, legal};
 use terraline::scene::file::{Document, parse};
 use terraline::scene::keys::sections;
-use terraline::scene::{Scene, builtin, load, write};
+use terraline::scene::{MapSource, Scene, builtin, load, write};
 
 mod support;
 
@@ -68,7 +68,7 @@ fn formats_and_paths_are_written() {
     assert_same(&scene, &read(&write::toml(&scene, "")));
 
     let mut scene = read("");
-    scene.terrain_mut().expect("a terrain").source = "maps/my \"map\".png".into();
+    scene.terrain_mut().expect("a terrain").source = MapSource::new("maps/my \"map\".png");
     let text = write::toml(&scene, "/data/a \"b\" \\ c.png");
     let value: toml::Table = text.parse().unwrap();
     assert_eq!(value["surface"][0]["map"].as_str(), Some("/data/a \"b\" \\ c.png"));

@@ -6,40 +6,34 @@ use clap::Args;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::scene_args::quote;
+use super::reading::Reading;
 use super::{Stop, report};
 use crate::scene::height_map::georeference::Coordinates;
 use crate::scene::height_map::source;
-use crate::scene::{Encoding, HeightFile};
+use crate::scene::height_map::{MAX_NODES, Thinning, unit};
+use crate::scene::{HeightFile, Interpretation, quote};
 
 /// Say what is understood of height files: size, cells, place, range, nodes without data.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: terraline info dem.tif N36W085.hgt")]
+#[command(after_help = "Example: terraline info dem.tif N36W085.hgt
+Example: terraline info dem.asc --unit ft --height-unit ft --nodata -32767")]
 pub struct Info {
-    /// Height files: GeoTIFF, SRTM .hgt (also zipped), ESRI ASCII grid, PNG.
+    /// Height files: GeoTIFF, SRTM .hgt, ESRI ASCII grid, PNG, also in .zip and .gz.
     #[arg(required = true)]
     files: Vec<PathBuf>,
 
-    /// What the colours of a PNG stand for: `terrain-rgb` or `terrarium` for packed heights.
-    #[arg(long, value_name = "ENCODING", value_parser = parse_encoding, default_value = "stored")]
-    encoding: Encoding,
+    #[command(flatten)]
+    reading: Reading,
 
     /// One JSON object on stdout.
     #[arg(long)]
     json: bool,
 }
 
-fn parse_encoding(text: &str) -> Result<Encoding, String> {
-    let known = Encoding::NAMES.iter().find(|(name, _)| *name == text);
-    known.map(|(_, encoding)| *encoding).ok_or_else(|| {
-        let names = Encoding::NAMES.map(|(name, _)| name);
-        format!("give one of {}", names.join(", "))
-    })
-}
-
 #[derive(Serialize)]
 struct Report {
     files: Vec<Described>,
+    errors: Vec<Unread>,
 }
 
 /// Coordinates of the outermost nodes.
@@ -56,6 +50,8 @@ struct Extent {
 struct Described {
     file: String,
     format: &'static str,
+    /// `zip`, `gzip` or null.
+    packed: Option<&'static str>,
     columns: usize,
     rows: usize,
     sample_type: &'static str,
@@ -84,34 +80,58 @@ struct Described {
     render: String,
 }
 
+/// A file that could not be read.
+#[derive(Serialize)]
+struct Unread {
+    file: String,
+    message: String,
+}
+
 impl Info {
     pub fn run(&self) -> Result<(), Stop> {
-        let files = self
-            .files
-            .iter()
-            .map(|path| {
-                let what = format!("reading {}", path.display());
-                report::while_waiting(&what, || describe(path, self.encoding))
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        if self.json {
-            return report::json("info", None, &Report { files });
+        let (mut files, mut errors) = (Vec::new(), Vec::new());
+        for path in &self.files {
+            let what = format!("reading {}", path.display());
+            match report::while_waiting(&what, || describe(path, &self.reading)) {
+                Ok(file) => {
+                    if !self.json {
+                        let gap = if files.is_empty() { "" } else { "\n" };
+                        report::print(&format!("{gap}{}", text(&file)));
+                    }
+                    files.push(file);
+                }
+                Err(Stop::BadInput(message)) if self.files.len() > 1 => {
+                    eprintln!("terraline: {message}");
+                    errors.push(Unread { file: path.display().to_string(), message });
+                }
+                Err(stop) => return Err(stop),
+            }
         }
-        let texts: Vec<String> = files.iter().map(text).collect();
-        report::print(&texts.join("\n\n"));
-        Ok(())
+        let (read, unread) = (files.len(), errors.len());
+        if self.json {
+            report::json("info", None, &Report { files, errors })?;
+        }
+        if unread == 0 {
+            return Ok(());
+        }
+        Err(Stop::BadInput(format!("{unread} of {} files cannot be used", read + unread)))
     }
 }
 
-fn describe(path: &Path, encoding: Encoding) -> Result<Described, Stop> {
+fn describe(path: &Path, reading: &Reading) -> Result<Described, Stop> {
     if !path.exists() {
         return Err(Stop::BadInput(format!(
             "{}: there is no such file; check the name of the height file",
             path.display()
         )));
     }
-    let HeightFile { map, georeference, storage, nodata, notes } = source::read(path, encoding)?;
-    let (columns, rows) = (map.columns(), map.rows());
+    let asked =
+        Interpretation { thinning: Thinning::Fit(MAX_NODES), ..reading.interpretation() };
+    let HeightFile { map, mut georeference, storage, whole, every, nodata, notes } =
+        source::read(path, &asked)?;
+    // The file is described, not what is kept of it.
+    let (columns, rows) = whole;
+    georeference.cell = georeference.cell.map(|cell| cell / every as f64);
     let (lowest, highest) = map.range();
     let voids = map.voids();
     let extent = georeference
@@ -119,17 +139,16 @@ fn describe(path: &Path, encoding: Encoding) -> Result<Described, Stop> {
         .zip(georeference.far_corner(columns, rows))
         .map(|(origin, far)| Extent { west: origin.x, east: far.x, south: far.y, north: origin.y });
     let stem = path.file_stem().map_or_else(|| "terrain".into(), |stem| stem.to_string_lossy());
-    let mut render = format!(
+    let mut render = vec![format!(
         "terraline render {} -o {}",
         quote(&path.display().to_string()),
         quote(&format!("{stem}-view.png"))
-    );
-    if encoding != Encoding::Stored {
-        render += &format!(" --set surface.encoding={}", encoding.name());
-    }
+    )];
+    render.extend(reading.words());
     Ok(Described {
         file: path.display().to_string(),
         format: storage.format,
+        packed: storage.packed,
         columns,
         rows,
         sample_type: storage.sample,
@@ -164,7 +183,7 @@ fn describe(path: &Path, encoding: Encoding) -> Result<Described, Stop> {
         nodata_nodes: voids,
         nodata_share: voids as f64 / (columns * rows) as f64,
         notes,
-        render,
+        render: render.join(" "),
     })
 }
 
@@ -174,7 +193,8 @@ fn text(file: &Described) -> String {
     let stored =
         [file.compression.clone(), file.layout.clone(), file.byte_order.map(str::to_owned)];
     let stored: String = stored.iter().flatten().map(|word| format!(", {word}")).collect();
-    line("format", format!("{}, {}{stored}", file.format, file.sample_type));
+    let packed = file.packed.map_or(String::new(), |kind| format!(" in a {kind} file"));
+    line("format", format!("{}{packed}, {}{stored}", file.format, file.sample_type));
     line("size", format!("{} x {} nodes", file.columns, file.rows));
     line("cell", cell(file));
     line("place", place(file));
@@ -192,7 +212,7 @@ fn text(file: &Described) -> String {
     }
     let unit = match file.height_unit_m {
         Some(1.0) => " m".to_owned(),
-        Some(unit) => format!(", in units of {} m", report::digits(unit)),
+        Some(unit_m) => format!(" {}", unit::name(unit_m)),
         None => ", unit not stated".to_owned(),
     };
     line(
@@ -249,6 +269,9 @@ fn cell(file: &Described) -> String {
         (Some("degrees"), Some(latitude)) => {
             format!("{x:.9} x {z:.9} degrees: {metres} at latitude {latitude:.3}")
         }
+        (_, Some(latitude)) => {
+            format!("{x} x {z}: {metres} on the ground at latitude {latitude:.3}")
+        }
         _ if file.coordinate_unit_m == Some(1.0) => metres,
         _ => format!("{x} x {z}: {metres}"),
     }
@@ -257,8 +280,7 @@ fn cell(file: &Described) -> String {
 fn place(file: &Described) -> String {
     let mut words = vec![match (file.coordinates, file.coordinate_unit_m) {
         (Some("degrees"), _) => "longitude and latitude in degrees".to_owned(),
-        (Some(_), Some(1.0)) => "projected, in metres".to_owned(),
-        (Some(_), Some(unit)) => format!("projected, in units of {} m", report::digits(unit)),
+        (Some(_), Some(unit_m)) => format!("projected, in {}", unit::name(unit_m)),
         _ => "not known".to_owned(),
     }];
     words.extend(file.epsg.map(|code| format!("EPSG:{code}")));

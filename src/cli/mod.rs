@@ -7,6 +7,7 @@ mod explain;
 mod info;
 mod outputs;
 mod plan;
+mod reading;
 mod render;
 pub mod report;
 pub mod scene_args;

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::Stop;
+use super::reading::Reading;
 use crate::engine::{Engine, FixedWorld, Machine, Memories};
 use crate::plan::Plan;
-use crate::scene::framing::{self, Framing};
+use crate::scene::framing::{self, Framing, Wishes};
 use crate::scene::screen::{MAX_PIXELS, MAX_SIDE};
 use crate::scene::{
-    self, FormatRequest, Overflow, Registers, Rounding, Scene, Surface, Terrain, list, registers,
+    self, FormatRequest, Overflow, Registers, Rounding, Scene, Surface, list, quote, registers,
 };
 use crate::setup::SetupError;
 use crate::word::real::Real;
@@ -18,9 +19,12 @@ use crate::word::real::Real;
 /// The scene of a command, and what changes it.
 #[derive(Debug, Args)]
 pub struct SceneArgs {
-    /// A scene file (.toml), a height file (GeoTIFF, .hgt, .asc, PNG) to look over, or the name of
-    /// a built-in scene; `overview` if not given.
-    pub scene: Option<String>,
+    /// A scene file (.toml), a height file (GeoTIFF, .hgt, .asc, PNG) to look over, several that make
+    /// one map, or the name of a built-in scene; `overview` if not given.
+    scene: Vec<String>,
+
+    #[command(flatten)]
+    reading: Reading,
 
     /// Override a value of the scene, for example `--set camera.pitch=-20`; repeatable.
     #[arg(long = "set", value_name = "PATH=VALUE")]
@@ -88,16 +92,29 @@ impl Planned {
 impl SceneArgs {
     /// Reads, overrides and plans the scene.
     pub fn load(&self) -> Result<Planned, Stop> {
-        let framing = match self.scene.as_deref() {
-            Some(name) if scene::builtin::find(name).is_none() && framing::applies(name) => {
-                let size = self.size.as_deref().map(parse_size).transpose()?;
-                Some(framing::read(Path::new(name), &self.set, size)?)
+        let sets: Vec<String> = self.reading.sets().into_iter().chain(self.set.clone()).collect();
+        let name = self.scene.first().map(String::as_str);
+        let is_height_file =
+            |name: &str| scene::builtin::find(name).is_none() && framing::applies(name);
+        let framing = if name.is_some_and(is_height_file) {
+            let size = self.size.as_deref().map(parse_size).transpose()?;
+            let Reading { unit, height_unit, .. } = self.reading;
+            let wishes = Wishes { size, unit, height_unit_m: height_unit };
+            let paths: Vec<&Path> = self.scene.iter().map(Path::new).collect();
+            Some(framing::read(&paths, &sets, &wishes)?)
+        } else {
+            if let [first, second, ..] = self.scene.as_slice() {
+                return Err(Stop::BadInput(format!(
+                    "{second}: {first} is a scene, and one is drawn at a time; several height files \
+                     make one map"
+                )));
             }
-            _ => None,
+            self.reading.refuse(name.unwrap_or("overview"))?;
+            None
         };
         let mut scene = match &framing {
             Some(framing) => framing.scene.clone(),
-            None => scene::load(self.scene.as_deref(), &self.set)?,
+            None => scene::load(name, &sets)?,
         };
         for format in &self.format {
             scene.formats.push(parse_format(format)?);
@@ -108,7 +125,7 @@ impl SceneArgs {
                 *screen = screen.resized(columns, lines);
             }
         }
-        let of = self.scene.as_deref().unwrap_or("overview");
+        let of = name.unwrap_or("overview");
         let located = |error: String| Stop::BadInput(format!("{of}: {error}"));
         let plan = Plan::new(&scene, self.screen.as_deref(), self.full)
             .map_err(|error| located(error.to_string()))?;
@@ -125,20 +142,24 @@ impl SceneArgs {
 
     /// Files that a planned scene was read from.
     pub fn inputs(&self, planned: &Planned) -> Vec<PathBuf> {
-        let Some(file) = self.scene.as_deref().map(PathBuf::from) else { return Vec::new() };
+        let Some(file) = self.scene.first().map(PathBuf::from) else { return Vec::new() };
         let maps = planned.scene.surfaces.iter().filter_map(Surface::terrain);
-        maps.map(|terrain| self.map_file(terrain)).chain([file]).collect()
+        maps.flat_map(|terrain| terrain.source.paths(self.folder())).chain([file]).collect()
     }
 
-    /// Path of a terrain's map, which stands in the scene relative to the scene's folder.
-    pub fn map_file(&self, terrain: &Terrain) -> PathBuf {
-        let folder = self.scene.as_deref().and_then(|file| Path::new(file).parent());
-        folder.unwrap_or(Path::new("")).join(&terrain.source)
+    /// Folder where relative paths of the scene start.
+    pub fn folder(&self) -> &Path {
+        let first = self.scene.first().and_then(|file| Path::new(file).parent());
+        first.unwrap_or(Path::new(""))
     }
 
     /// The arguments again, quoted for a shell.
     fn invocation(&self) -> String {
-        let mut words = vec![quote(self.scene.as_deref().unwrap_or("overview"))];
+        let mut words: Vec<String> = self.scene.iter().map(|name| quote(name)).collect();
+        if words.is_empty() {
+            words.push("overview".to_owned());
+        }
+        words.extend(self.reading.words());
         let mut option = |name: &str, value: &str| words.push(format!("{name} {}", quote(value)));
         self.set.iter().for_each(|value| option("--set", value));
         self.format.iter().for_each(|value| option("--format", value));
@@ -152,16 +173,6 @@ impl SceneArgs {
             words.push("--full".into());
         }
         words.join(" ")
-    }
-}
-
-/// A word for a POSIX shell.
-pub fn quote(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=./,:+@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
     }
 }
 

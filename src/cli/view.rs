@@ -144,7 +144,7 @@ mod open {
         /// The scene's height map as a path that holds from any folder; `None` if it is no text.
         fn map(&self, scene: &Scene) -> Option<String> {
             let Some(terrain) = scene.terrain() else { return Some(String::new()) };
-            let file = self.scene.map_file(terrain);
+            let file = self.scene.folder().join(&terrain.source.file);
             std::fs::canonicalize(&file).unwrap_or(file).to_str().map(str::to_owned)
         }
     }

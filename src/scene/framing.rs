@@ -11,9 +11,11 @@ use std::sync::Arc;
 
 use super::error::SceneError;
 use super::file::{Document, parse_with};
-use super::height_map::source::{self, is_height_file};
-use super::height_map::{Encoding, HeightFile};
-use super::maps::ReadMap;
+use super::height_map::source::is_height_file;
+use super::height_map::{
+    CoordinateUnit, Encoding, Georeference, HeightFile, Interpretation, MAX_NODES, Thinning, mosaic,
+};
+use super::maps::{MapSource, ReadMap};
 use super::shown::shown_path;
 use super::tables::Scene;
 use super::{set, write};
@@ -27,6 +29,8 @@ const SIZE: (u32, u32) = (1280, 800);
 pub struct Framing {
     /// The scene, `--set` options applied.
     pub scene: Scene,
+    /// Where the map lies, as far as its file says.
+    pub georeference: Georeference,
     /// What was chosen and assumed, a sentence each.
     pub chosen: Vec<String>,
     /// Where the paths in the scene start.
@@ -38,44 +42,70 @@ pub fn applies(name: &str) -> bool {
     is_height_file(Path::new(name))
 }
 
-/// Reads a height file and chooses a scene for it, for a screen of `size` columns and lines.
+/// What a user wants of the scene that is chosen for a height file.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Wishes {
+    /// Columns and lines of the screen.
+    pub size: Option<(u32, u32)>,
+    /// What the coordinates of the file count.
+    pub unit: Option<CoordinateUnit>,
+    /// Metres per unit of height.
+    pub height_unit_m: Option<f64>,
+}
+
+/// Reads a height file, or several that make one map, and chooses a scene for it.
 ///
 /// Camera, exaggeration and colours are chosen before the `--set` options are applied.
 ///
 /// # Errors
-/// If the file is no height map, its heights are too large for a scene, or an option does not fit.
-pub fn read(path: &Path, sets: &[String], size: Option<(u32, u32)>) -> Result<Framing, SceneError> {
-    let encoding = encoding(sets);
+/// If a file is no height map, the files do not fit, the heights are too large for a scene, or an option does
+/// not fit.
+pub fn read(paths: &[&Path], sets: &[String], wishes: &Wishes) -> Result<Framing, SceneError> {
     let unreadable = |file: &Path, reason: String, remedy: String| SceneError::Unreadable {
         file: shown_path(file),
         reason,
         remedy,
     };
-    if !path.exists() {
+    let Some(&path) = paths.first() else {
+        let remedy = "give a height file".to_owned();
+        return Err(unreadable(Path::new(""), "there is no file".to_owned(), remedy));
+    };
+    if let Some(missing) = paths.iter().find(|path| !path.exists()) {
         return Err(unreadable(
-            path,
+            missing,
             "there is no such file".to_owned(),
             "give a height file or a scene file that exists, or the name of a built-in scene"
                 .to_owned(),
         ));
     }
-    let file = source::read(path, encoding).map_err(|error| SceneError::Unreadable {
+    let asked = interpretation(sets, wishes);
+    let files: Vec<PathBuf> = paths.iter().map(|&path| path.to_owned()).collect();
+    let file = mosaic::read(&files, &asked).map_err(|error| SceneError::Unreadable {
         file: error.file,
         reason: error.reason,
         remedy: error.remedy,
     })?;
-    let Some(name) = path.file_name().and_then(|name| name.to_str()) else {
+    let name = path.file_name().and_then(|name| name.to_str());
+    let tiles = paths[1..].iter().map(|tile| relative(tile, path)).collect::<Option<Vec<_>>>();
+    let (Some(name), Some(tiles)) = (name, tiles) else {
         return Err(unreadable(
             path,
             "its name is not UTF-8 text, which a scene has to be".to_owned(),
             "rename the file".to_owned(),
         ));
     };
-    let HeightFile { map, georeference, mut notes, .. } = file;
-    let view = View::new(&map, &georeference, size.unwrap_or(SIZE))
+    let HeightFile { map, georeference, every, mut notes, .. } = file;
+    let view = View::new(&map, &georeference, wishes.size.unwrap_or(SIZE))
         .map_err(|(reason, remedy)| unreadable(path, reason, remedy))?;
     notes.extend(view.reasons.iter().cloned());
-    let known = ReadMap { source: name.to_owned(), encoding, map: Arc::new(map) };
+    let source = MapSource {
+        file: name.to_owned(),
+        tiles,
+        encoding: asked.encoding,
+        nodata_value: asked.nodata,
+        thin: every as u32,
+    };
+    let known = ReadMap { source, map: Arc::new(map) };
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let folder = path.parent().unwrap_or(Path::new(""));
     let document = Document {
@@ -85,7 +115,7 @@ pub fn read(path: &Path, sets: &[String], size: Option<(u32, u32)>) -> Result<Fr
         text: &write::toml(&view.scene(&known), name),
     };
     let scene = parse_with(&document, sets, Some(&known))?;
-    Ok(Framing { scene, chosen: notes, folder: folder.to_owned() })
+    Ok(Framing { scene, georeference, chosen: notes, folder: folder.to_owned() })
 }
 
 impl Framing {
@@ -101,8 +131,8 @@ impl Framing {
         ];
         top.extend(self.chosen.iter().map(|reason| format!("Note: {reason}.")));
         let map = match scene.terrain() {
-            Some(terrain) if !terrain.is_built_in() => {
-                let map = self.folder.join(&terrain.source);
+            Some(terrain) if !terrain.source.is_built_in() => {
+                let map = self.folder.join(&terrain.source.file);
                 relative(&map, target).ok_or_else(|| SceneError::Unreadable {
                     file: shown_path(target),
                     reason: format!(
@@ -118,18 +148,26 @@ impl Framing {
     }
 }
 
-/// The encoding that an option asks for: the map is read before the options are applied. An
-/// unknown one is refused with the other options.
-fn encoding(sets: &[String]) -> Encoding {
-    let asked = sets.iter().rev().find_map(|option| {
-        let (path, value) = set::split(option).ok()?;
-        matches!(path, "surface.encoding" | "surface.0.encoding").then_some(value)
-    });
-    let asked = asked.unwrap_or_default().trim_matches(['"', '\'']);
-    Encoding::NAMES
-        .iter()
-        .find(|(name, _)| *name == asked)
-        .map_or(Encoding::Stored, |(_, encoding)| *encoding)
+/// How the file is to be read: the map is read before the options are applied. Values that make no
+/// sense are refused with the other options.
+fn interpretation(sets: &[String], wishes: &Wishes) -> Interpretation {
+    let asked = |key: &str| {
+        sets.iter().rev().find_map(|option| {
+            let (path, value) = set::split(option).ok()?;
+            let of_surface = path.strip_prefix("surface.")?;
+            let is_key = of_surface.strip_prefix("0.").unwrap_or(of_surface) == key;
+            is_key.then(|| value.trim_matches(['"', '\'']))
+        })
+    };
+    let named = |name: &str| Encoding::NAMES.iter().find(|(other, _)| *other == name);
+    let thin = asked("thin").and_then(|value| value.parse().ok()).filter(|&every| every > 0);
+    Interpretation {
+        encoding: asked("encoding").and_then(named).map_or(Encoding::Stored, |found| found.1),
+        nodata: asked("nodata_value").and_then(|value| value.parse().ok()),
+        unit: wishes.unit,
+        height_unit_m: wishes.height_unit_m,
+        thinning: thin.map_or(Thinning::Fit(MAX_NODES), Thinning::Every),
+    }
 }
 
 /// The path of a file from the folder of another, with slashes.

@@ -1,17 +1,26 @@
 //! A grid of height samples, row 0 north. [`source`] reads it from files of several formats.
 
+mod archive;
 mod ascii;
+mod epsg;
 mod error;
 pub(super) mod file;
 mod found;
 pub mod georeference;
 mod geotiff;
 mod hgt;
+mod interpretation;
 mod map;
+mod marks;
+pub mod mosaic;
 mod png;
+pub mod projection;
 pub mod source;
+pub mod unit;
+mod wkt;
 
 pub use error::{MAX_NODES, MAX_SIDE, MapError};
 pub use found::{Encoding, HeightFile, Storage};
 pub use georeference::Georeference;
+pub use interpretation::{CoordinateUnit, Interpretation, Thinning, length};
 pub use map::HeightMap;

@@ -4,6 +4,7 @@ use std::path::{Path, is_separator};
 
 use super::error::{SceneError, list, nearest};
 use super::file::{self, Document};
+use super::framing::Wishes;
 use super::tables::Scene;
 use super::{builtin, framing};
 
@@ -29,7 +30,8 @@ pub fn load(name_or_path: Option<&str>, sets: &[String]) -> Result<Scene, SceneE
         );
     }
     if framing::applies(name) {
-        return framing::read(Path::new(name), sets, None).map(|framing| framing.scene);
+        return framing::read(&[Path::new(name)], sets, &Wishes::default())
+            .map(|framing| framing.scene);
     }
     let names = || builtin::SCENES.iter().map(|scene| scene.name);
     let path = Path::new(name);

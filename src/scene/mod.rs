@@ -57,13 +57,16 @@ pub use format::FormatRequest;
 #[cfg(feature = "cli")]
 pub(crate) use format::registers;
 pub use hardware::{Hardware, RatioForm, WordSize};
-pub use height_map::{Encoding, HeightFile, HeightMap};
+pub use height_map::{Encoding, HeightFile, HeightMap, Interpretation};
 pub use kernel::{Deformation, Kernel, KernelShape};
 pub use light::{Colors, Light};
 pub use load::load;
+pub use maps::MapSource;
 pub use nodata::NoData;
 pub use plane::Plane;
 pub use screen::{Extent, Screen};
+#[cfg(feature = "cli")]
+pub(crate) use shown::quote;
 pub use stepper::{Bisection, Stepper, StepperMode};
 pub use surface::Surface;
 pub use tables::Scene;

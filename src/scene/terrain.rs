@@ -9,7 +9,7 @@ use super::error::SceneError;
 use super::field::Fields;
 use super::height_map::{Encoding, HeightMap};
 use super::kind::{COORDINATE, FARTHEST, Kind, LENGTH, SMALLEST};
-use super::maps::BUILTIN;
+use super::maps::MapSource;
 use super::nodata::{self, NoData};
 use super::shown::shown;
 use super::table::{Table, keys, table, words};
@@ -19,12 +19,10 @@ use super::writer::Writer;
 /// A height map in the scene.
 #[derive(Clone, Debug)]
 pub struct Terrain {
-    /// As written in the scene: a path or `builtin:NAME`.
-    pub source: String,
+    /// Which file the map comes from, and how it is read.
+    pub source: MapSource,
     /// The samples, with `nodata` carried out: nodes that are NaN are holes.
     pub map: Arc<HeightMap>,
-    /// How the samples of the file stand for heights.
-    pub encoding: Encoding,
     /// Cell size (Lx, Lz) in scene units, positive.
     pub cell: DVec2,
     /// `y = (sample - offset) * scale`.
@@ -42,11 +40,6 @@ pub struct Terrain {
 }
 
 impl Terrain {
-    /// Whether the map comes from the program.
-    pub(super) fn is_built_in(&self) -> bool {
-        self.source.starts_with(BUILTIN)
-    }
-
     /// Height of node (column i, row j) in scene units; NaN in a hole.
     pub fn node(&self, i: usize, j: usize) -> f64 {
         self.height(self.map.sample(i, j))
@@ -99,6 +92,18 @@ table! {
         };
         /// How samples stand for heights; other than "stored" of a colour PNG.
         encoding: Encoding = Encoding::Stored, Encoding::kind();
+        /// Further height files that make one map with it, on one grid; a relative path starts at
+        /// the folder of the map.
+        tiles: Vec<String> = Vec::new(), Kind::Array("paths", Box::new(Kind::Text {
+            expected: "the path of a height file",
+            refusal: "found no name",
+            fits: |name| !name.is_empty(),
+        }), 0..=1024);
+        /// A stored sample that marks nodes without data, beside what the file declares.
+        nodata_value: Option<f64> = None, Kind::Number(-3.5e38..=3.5e38);
+        /// Every n-th node of every n-th row is read: a map has at most 16384 nodes a side and
+        /// 67108864 in all.
+        thin: u32 = 1, Kind::Whole(1..=1024);
         /// Size of a cell; left out, [1.0, 1.0], and 343 / (N - 1) with "builtin:jacksboro@N".
         cell: Option<DVec2> = None, Kind::pair("[x, z]", SMALLEST..=FARTHEST);
         /// What a sample means: y = (sample - offset) * scale.
@@ -126,30 +131,40 @@ table! {
 impl Terrain {
     /// Reads the keys, then the map that they name.
     pub(super) fn load(fields: &Fields<'_>) -> Result<Self, SceneError> {
-        let TerrainKeys { map: source, encoding, cell, height, outside, nodata, base_depth } =
-            Table::read(fields, TerrainKeys::default())?;
-        let map =
-            fields.maps().load(&source, encoding).map_err(|error| match fields.get("map") {
-                Some(field) => SceneError::Map {
-                    place: field.place(),
-                    field: field.path,
-                    source: Box::new(error),
-                },
-                None => fields.error("map", error.reason, error.remedy),
-            })?;
+        let TerrainKeys {
+            map: file,
+            encoding,
+            tiles,
+            nodata_value,
+            thin,
+            cell,
+            height,
+            outside,
+            nodata,
+            base_depth,
+        } = Table::read(fields, TerrainKeys::default())?;
+        let source = MapSource { file, tiles, encoding, nodata_value, thin };
+        let map = fields.maps().load(&source).map_err(|error| match fields.get("map") {
+            Some(field) => {
+                SceneError::Map { place: field.place(), field: field.path, source: Box::new(error) }
+            }
+            None => fields.error("map", error.reason, error.remedy),
+        })?;
         let map = nodata::apply(map, nodata);
         let cell = cell.unwrap_or_else(|| default_cell(&source, &map));
         let Height { offset, scale } = height;
-        let terrain =
-            Self { source, map, encoding, cell, offset, scale, outside, nodata, base_depth };
+        let terrain = Self { source, map, cell, offset, scale, outside, nodata, base_depth };
         check_extent(fields, &terrain)?;
         Ok(terrain)
     }
 
     pub(super) fn write(&self, out: &mut Writer) {
         let keys = TerrainKeys {
-            map: self.source.clone(),
-            encoding: self.encoding,
+            map: self.source.file.clone(),
+            encoding: self.source.encoding,
+            tiles: self.source.tiles.clone(),
+            nodata_value: self.source.nodata_value,
+            thin: self.source.thin,
             cell: (self.cell != default_cell(&self.source, &self.map)).then_some(self.cell),
             height: Height { offset: self.offset, scale: self.scale },
             outside: self.outside,
@@ -161,8 +176,8 @@ impl Terrain {
 }
 
 /// One unit; but resampled built-in maps cover the same ground with any number of nodes.
-fn default_cell(source: &str, map: &HeightMap) -> DVec2 {
-    if source.starts_with(BUILTIN) {
+fn default_cell(source: &MapSource, map: &HeightMap) -> DVec2 {
+    if source.is_built_in() {
         DVec2::splat(builtin::GROUND / (map.columns() - 1) as f64)
     } else {
         DVec2::ONE

@@ -28,8 +28,8 @@ pub fn commented(scene: &Scene, map: &str, top: &[String]) -> String {
 
 fn written(scene: &Scene, map: &str, mut out: Writer) -> String {
     let mut scene = scene.clone();
-    if let Some(terrain) = scene.terrain_mut().filter(|terrain| !terrain.is_built_in()) {
-        map.clone_into(&mut terrain.source);
+    if let Some(terrain) = scene.terrain_mut().filter(|terrain| !terrain.source.is_built_in()) {
+        map.clone_into(&mut terrain.source.file);
     }
     scene.write(&mut out);
     out.finish()

@@ -182,3 +182,99 @@ fn info_says_what_was_understood() {
     folder.prints(&["render", "a.asc", "-o", "a-view.png", "--size", "64x40"]);
     assert!(folder.path("a-view.png").exists());
 }
+
+#[test]
+fn info_goes_on_after_a_bad_file() {
+    let folder = Folder::new();
+    folder.write("a.asc", grid(5, 4, 30.0, 500_000.0, hills));
+    folder.write("bad.asc", "ncols x\n");
+    folder.write("c.asc", grid(6, 4, 30.0, 500_000.0, hills));
+    let all = ["info", "a.asc", "bad.asc", "missing.tif", "c.asc"];
+    let output = folder.run(&all);
+    assert_eq!(output.status.code(), Some(2));
+    let (stdout, stderr) =
+        (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(stdout.contains("5 x 4 nodes") && stdout.contains("6 x 4 nodes"), "{stdout}");
+    let messages: Vec<&str> = stderr.lines().collect();
+    assert_eq!(messages.len(), 3, "{stderr}");
+    assert!(messages[0].contains("bad.asc") && messages[1].contains("missing.tif"), "{stderr}");
+    assert!(messages[2].contains("2 of 4 files"), "{stderr}");
+    let output = folder.run(&[&all[..], &["--json"]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["files"].as_array().map(Vec::len), Some(2));
+    assert_eq!(json["errors"][1]["file"], "missing.tif");
+}
+
+#[test]
+fn options_settle_what_a_file_leaves_open() {
+    let folder = Folder::new();
+    let height = |i: usize, j: usize| if (i, j) == (3, 2) { 7.0 } else { 500.0 + hills(i, j) };
+    folder.write("dem.asc", grid(50, 40, 100.0, 500_000.0, height));
+    let asked = ["--unit", "ft", "--height-unit", "ft", "--nodata", "7"];
+    let info = folder.json(&[&["info", "dem.asc"], &asked[..]].concat());
+    let file = &info["files"][0];
+    assert_eq!(file["cell_m"][0].as_f64(), Some(30.48));
+    assert_eq!((&file["height_unit_m"], &file["nodata_nodes"]), (&0.3048.into(), &1.into()));
+    // The command that it names draws the same.
+    let render = file["render"].as_str().unwrap();
+    assert!(render.contains("--unit 0.3048 --height-unit 0.3048 --nodata 7.0"), "{render}");
+    let outputs = ["-o", "a.png", "--size", "64x40", "--scene-out", "s.toml"];
+    let frame = folder.json(&[&["render", "dem.asc"], &asked[..], &outputs].concat());
+    assert!(frame["chosen"].to_string().contains("1 node has no data"), "{frame}");
+    folder.prints(&["render", "s.toml", "-o", "b.png"]);
+    assert_eq!(folder.read("a.png"), folder.read("b.png"));
+    let scene = String::from_utf8(folder.read("s.toml")).unwrap();
+    assert!(scene.contains("unit_m = 30.48") && scene.contains("nodata_value = 7.0"), "{scene}");
+    // A scene has keys of its own.
+    for option in [&["--unit", "ft"][..], &["--height-unit", "ft"]] {
+        let output = folder.run(&[&["render", "s.toml"], option].concat());
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{stderr}");
+        assert!(stderr.contains(option[0]) && stderr.contains("surface.cell"), "{stderr}");
+    }
+}
+
+#[test]
+fn several_files_are_one_map() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("maps")).unwrap();
+    std::fs::create_dir(folder.path("scenes")).unwrap();
+    let part = |west: usize, columns: usize| {
+        let text = grid(columns, 30, 30.0, 0.0, |i, j| hills(west + i, j));
+        text.replace("xllcorner 0", &format!("xllcorner {}", 30 * west))
+    };
+    folder.write("whole.asc", part(0, 41));
+    folder.write("maps/a.asc", part(0, 21));
+    folder.write("b.asc", part(20, 21));
+    let size = ["--size", "96x60"];
+    folder.prints(&[&["render", "whole.asc", "-o", "whole.png"], &size[..]].concat());
+    let tiles =
+        ["render", "maps/a.asc", "b.asc", "-o", "tiles.png", "--scene-out", "scenes/s.toml"];
+    let text = folder.prints(&[&tiles[..], &size].concat());
+    assert!(text.contains("2 files make one map of 41 x 30 nodes"), "{text}");
+    assert_eq!(folder.read("whole.png"), folder.read("tiles.png"));
+    folder.prints(&["render", "scenes/s.toml", "-o", "again.png"]);
+    assert_eq!(folder.read("whole.png"), folder.read("again.png"));
+    let output = folder.run(&["render", "flight", "maps/a.asc"]);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert!(stderr.contains("maps/a.asc") && stderr.contains("flight is a scene"), "{stderr}");
+}
+
+#[test]
+fn packed_files_are_drawn_as_they_are_described() {
+    let folder = Folder::new();
+    let mut gzip = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    std::io::Write::write_all(&mut gzip, grid(20, 15, 30.0, 500_000.0, hills).as_bytes()).unwrap();
+    folder.write("dem.asc.gz", gzip.finish().unwrap());
+    assert!(folder.prints(&["info", "dem.asc.gz"]).contains("ESRI ASCII grid in a gzip file"));
+    folder.prints(&["render", "dem.asc.gz", "-o", "a.png", "--size", "64x40"]);
+    folder.write("cut.asc.gz", b"\x1f\x8b\x08\0\0\0\0\0\0\0");
+    let message = |command: &str| {
+        let output = folder.run(&[command, "cut.asc.gz"]);
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    assert_eq!(message("info"), message("render"));
+}

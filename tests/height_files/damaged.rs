@@ -9,16 +9,13 @@ fn claims_that_the_file_cannot_hold() {
     for (file, words) in [
         (small().with(256, LONG, &[0]), &["0 x 3"][..]),
         (small().without(257), &["4 x 0"]),
-        (small().with(256, LONG, &[20000]), &["20000 x 3", "16384"]),
-        (small().with(256, LONG, &[16384]).with(257, LONG, &[16384]), &["67108864"]),
+        (small().with(256, LONG, &[20000]), &["cut short", "240000 bytes"]),
+        (small().with(256, LONG, &[16384]).with(257, LONG, &[16384]), &["5462 strips"]),
+        (small().with(256, LONG, &[1 << 21]), &["2097152 x 3", "gdal_translate"]),
         (small().with(256, LONG, &[16384]).with(257, LONG, &[4096]), &["offsets"]),
-        (small().with(256, LONG, &[8000]), &["cannot hold"]),
-        (small().with(278, LONG, &[0]), &["without rows"]),
+        (small().with(256, LONG, &[8000]), &["cut short"]),
         (small().with(278, LONG, &[1]), &["3 strips"]),
         (small().with(273, LONG, &[4_000_000_000]), &["cut short"]),
-        (small().with(279, LONG, &[4_000_000_000]), &["cut short"]),
-        (small().with(279, LONG, &[3]), &["cannot hold"]),
-        (small().with(273, LONG, &[8, 8, 8]), &["not 3"]),
         (small().with(256, LONG, &[4, 5]), &["tag 256"]),
         (small().with_text(258, "16"), &["tag 258"]),
     ] {
@@ -35,14 +32,14 @@ fn claims_that_the_file_cannot_hold() {
     for (file, word) in [
         (tiled().with(322, LONG, &[u64::from(u32::MAX)]), "4294967295 pixels"),
         (tiled().with(323, LONG, &[0]), "0 pixels"),
-        (tiled().with(322, LONG, &[8192]).with(323, LONG, &[8192]), "as many offsets, not 4"),
+        (tiled().with(322, LONG, &[8192]).with(323, LONG, &[8192]), "cut short"),
     ] {
         refused(&file.bytes(), "tiles.tif", &[word]);
     }
     // One tile, larger than the map and than what its bytes can hold.
     let mut huge = tiled().with(322, LONG, &[16384]).with(323, LONG, &[16384]);
     huge.blocks.truncate(1);
-    refused(&huge.bytes(), "huge.tif", &["cannot hold"]);
+    refused(&huge.bytes(), "huge.tif", &["cut short"]);
 }
 
 #[test]
@@ -71,7 +68,7 @@ fn directories_that_lead_nowhere() {
     let mut bytes = file.bytes();
     let at = bytes.windows(4).position(|w| w == [17, 1, 16, 0]).expect("the entry") + 4;
     bytes[at..at + 8].copy_from_slice(&(1_u64 << 60).to_le_bytes());
-    refused(&bytes, "list.tif", &["offsets"]);
+    refused(&bytes, "list.tif", &["cut short"]);
 }
 
 #[test]

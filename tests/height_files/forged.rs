@@ -15,7 +15,7 @@ use zip::write::SimpleFileOptions;
 use super::fuzz::{cases, try_all};
 use super::tiff_file::{DOUBLE, Form, Kind, LONG, LONG8, Layout, SHORT, TiffFile};
 
-fn deflated(bytes: &[u8]) -> Vec<u8> {
+pub fn deflated(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
     encoder.write_all(bytes).expect("memory");
     encoder.finish().expect("memory")
@@ -28,7 +28,7 @@ fn crc(bytes: &[u8]) -> u32 {
 }
 
 /// A PNG of chunks with the right lengths and checksums.
-fn png(chunks: &[(&[u8; 4], Vec<u8>)]) -> Vec<u8> {
+pub fn png(chunks: &[(&[u8; 4], Vec<u8>)]) -> Vec<u8> {
     let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
     for (name, data) in chunks {
         let guarded = [&name[..], data].concat();

@@ -8,8 +8,8 @@ use std::sync::LazyLock;
 
 use image::{ImageBuffer, ImageFormat, Luma, Rgb};
 use proptest::prelude::*;
-use terraline::scene::Encoding;
 use terraline::scene::height_map::source;
+use terraline::scene::{Encoding, Interpretation};
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
@@ -62,7 +62,7 @@ static SEEDS: LazyLock<Vec<(&'static str, Vec<u8>)>> = LazyLock::new(|| {
 pub fn try_all(bytes: &[u8], name: &str) -> bool {
     let mut read = false;
     for (_, encoding) in Encoding::NAMES {
-        match source::decode(bytes, name, encoding) {
+        match source::decode(bytes, name, &Interpretation::encoded(encoding)) {
             Ok(file) => {
                 read = true;
                 let (columns, rows) = (file.map.columns(), file.map.rows());

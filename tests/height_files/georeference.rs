@@ -2,18 +2,14 @@
 
 use glam::DVec2;
 use terraline::scene::HeightFile;
-use terraline::scene::height_map::georeference::{Coordinates, PixelIs, degree_m};
+use terraline::scene::height_map::georeference::{Coordinates, PixelIs};
+use terraline::scene::height_map::projection::Ellipsoid;
 
 use super::tiff_file::{SHORT, TiffFile};
-use super::{read, refused};
+use super::{read, refused, with_keys};
 
-/// GeoKeys with values of their own.
 fn keys(file: TiffFile, keys: &[(u64, u64)]) -> TiffFile {
-    let mut values = vec![1, 1, 0, keys.len() as u64];
-    for (key, value) in keys {
-        values.extend([*key, 0, 1, *value]);
-    }
-    file.with(34735, SHORT, &values)
+    with_keys(file, keys, &[], &[])
 }
 
 /// 4 x 3 nodes with a tie point at raster (column, row).
@@ -51,12 +47,15 @@ fn units_of_length_and_angle() {
     let feet = of(&[(1024, 1), (3076, 9002), (4099, 9003)]);
     assert_eq!(feet.coordinates, Coordinates::Lengths { unit_m: 0.3048 });
     assert_eq!(feet.cell_m(4, 3), Some(DVec2::new(0.5, 0.25) * 0.3048));
-    assert_eq!(feet.height_unit_m, Some(1200.0 / 3937.0));
+    assert_eq!(feet.height_unit_m, Some(0.304_800_609_601_219_24));
     let degrees = of(&[(1024, 2), (1025, 2), (2048, 4326), (2054, 9102)]);
     assert_eq!(degrees.coordinates, Coordinates::Degrees);
     assert_eq!(degrees.epsg, Some(4326));
     assert_eq!(degrees.middle_latitude(4, 3), Some(45.75));
-    assert_eq!(degrees.cell_m(4, 3), Some(DVec2::new(0.5, 0.25) * degree_m(45.75)));
+    assert_eq!(
+        degrees.cell_m(4, 3),
+        Some(DVec2::new(0.5, 0.25) * Ellipsoid::WGS84.degree_m(45.75))
+    );
     let minutes = of(&[(1024, 2), (2054, 9103)]);
     assert_eq!(minutes.cell, Some(DVec2::new(0.5, 0.25) / 60.0));
     // A unit given by its size.
@@ -72,11 +71,9 @@ fn units_of_length_and_angle() {
         &["beyond all numbers"],
     );
     assert_eq!(own.coordinates, Coordinates::Lengths { unit_m: 2.5 });
-    refused(
-        &keys(tied([0.0; 6], [1.0; 3]), &[(1024, 1), (3076, 9999)]).bytes(),
-        "u.tif",
-        &["EPSG code 9999"],
-    );
+    let unknown = place(&keys(tied([0.0; 6], [1.0; 3]), &[(1024, 1), (3076, 9999)]));
+    assert_eq!(unknown.georeference.coordinates, Coordinates::Lengths { unit_m: 1.0 });
+    assert!(unknown.notes[0].contains("EPSG code 9999") && unknown.notes[0].contains("--unit"));
     refused(&keys(tied([0.0; 6], [1.0; 3]), &[(1024, 3)]).bytes(), "g.tif", &["geocentric"]);
 }
 
@@ -133,11 +130,11 @@ fn grids_that_make_no_sense() {
         (keys(tied([0.0; 6], [1.0, 60.0, 0.0]), &geographic), &["latitudes from -150"]),
         // Degrees whose metres are beyond all numbers: found by fuzzing.
         (keys(tied([0.0; 6], [1e306, 0.1, 0.0]), &geographic), &["cells of", "degrees"]),
-        (TiffFile::small().with_doubles(34264, &[1.0, 0.0, 0.0]), &["fewer than 16"]),
+        (TiffFile::small().with_doubles(34264, &[1.0, 0.0, 0.0]), &["fewer than 8"]),
         (TiffFile::small().with_doubles(33922, &[1.0]).with_doubles(33550, &[1.0]), &["too few"]),
         (
-            TiffFile::small().with(33550, SHORT, &[1, 2, 3]).with_doubles(33922, &[0.0; 6]),
-            &["tag 33550"],
+            TiffFile::small().with_text(33550, "1 1 0").with_doubles(33922, &[0.0; 6]),
+            &["tag 33550 holds no numbers"],
         ),
     ] {
         refused(&file.bytes(), "senseless.tif", words);

@@ -50,24 +50,75 @@ fn zipped_tiles() {
     let file = read(&bytes, "N36W085.zip");
     assert_eq!(file.map.columns(), 101);
     assert_eq!(file.georeference.origin, Some(DVec2::new(-85.0, 37.0)));
-    assert_eq!(file.storage.format, "SRTM HGT in ZIP");
-    refused(&zipped(&[("readme.txt", b"about")]), "a.zip", &["no .hgt file"]);
+    assert_eq!((file.storage.format, file.storage.packed), ("SRTM HGT", Some("zip")));
+    refused(&zipped(&[("readme.txt", b"about")]), "a.zip", &["no height file"]);
     let two = zipped(&[("a.hgt", &tile(11)), ("b.hgt", &tile(11))]);
-    refused(&two, "a.zip", &["2 .hgt files", "unpack"]);
+    refused(&two, "a.zip", &["2 height files", "unpack"]);
     for cut in [5, 30, bytes.len() / 2, bytes.len() - 3] {
-        refused(&bytes[..cut], "a.zip", &["zip file is damaged"]);
+        refused(&bytes[..cut], "a.zip", &["zip file cannot be unpacked"]);
     }
     let mut damaged = bytes.clone();
     for byte in &mut damaged[200..400] {
         *byte ^= 0x5A;
     }
-    refused(&damaged, "a.zip", &["zip file is damaged"]);
+    refused(&damaged, "a.zip", &["zip file cannot be unpacked"]);
 }
 
 #[test]
 fn tiles_that_are_none() {
     refused(&tile(1201)[..2_884_800], "N36W085.hgt", &["2884800 bytes", "2884802"]);
-    refused(&[], "N36W085.hgt", &["not a square"]);
-    refused(&[1, 2], "N36W085.hgt", &["not a square"]);
+    refused(&[], "N36W085.hgt", &["not a tile"]);
+    refused(&[1, 2], "N36W085.hgt", &["not a tile"]);
     refused(&[0x80, 0, 0x80, 0, 0x80, 0, 0x80, 0], "N36W085.hgt", &["no node has data"]);
+}
+
+#[test]
+fn tiles_towards_the_poles_have_fewer_columns() {
+    let heights = (0..1801 * 3601).flat_map(|k| ((k % 1801) as i16).to_be_bytes());
+    let file = read(&heights.collect::<Vec<u8>>(), "N55E010.hgt");
+    assert_eq!((file.map.columns(), file.map.rows()), (1801, 3601));
+    assert_eq!(file.georeference.cell, Some(DVec2::new(1.0 / 1800.0, 1.0 / 3600.0)));
+    assert_eq!(file.map.sample(1800, 7), 1800.0);
+    assert!(file.notes.is_empty(), "{:?}", file.notes);
+}
+
+#[test]
+fn rasters_of_floats_under_the_same_ending_are_refused() {
+    let phase = |k: i32| (k as f32 / 37.0).sin() * 3.0;
+    let little: Vec<u8> = (0..10_000).flat_map(|k| phase(k).to_le_bytes()).collect();
+    refused(&little, "20200101.geo.hgt", &["32-bit floats (little-endian)", "gdal_translate"]);
+    let big: Vec<u8> = (0..10_000).flat_map(|k| phase(k).to_be_bytes()).collect();
+    refused(&big, "20200101.geo.hgt", &["32-bit floats (big-endian)"]);
+    // Cliffs, voids and seas are heights.
+    let cliff = |k: i32| if k % 141 < 70 { 0_i16 } else { 4000 + (k % 7) as i16 };
+    let steep: Vec<u8> = (0..141 * 141).flat_map(|k| cliff(k).to_be_bytes()).collect();
+    assert_eq!(read(&steep, "N36W085.hgt").map.range(), (0.0, 4006.0));
+}
+
+#[test]
+fn remarks_of_an_operating_system_are_no_tiles() {
+    let tile = tile(11);
+    for name in ["__MACOSX/._N36W085.hgt", "._N36W085.hgt", "a/.hidden.hgt"] {
+        let file = read(&zipped(&[("N36W085.hgt", &tile), (name, b"remark")]), "a.zip");
+        assert_eq!(file.map.columns(), 11, "{name}");
+    }
+}
+
+#[test]
+fn other_formats_in_zip_and_gzip() {
+    let tiff = super::tiff_file::TiffFile::small().bytes();
+    let file = read(&zipped(&[("dem/map.tif", &tiff)]), "map.zip");
+    assert_eq!((file.storage.format, file.storage.packed), ("GeoTIFF", Some("zip")));
+    let gzip = |bytes: &[u8]| {
+        let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+        encoder.write_all(bytes).expect("memory");
+        encoder.finish().expect("memory")
+    };
+    let file = read(&gzip(&tiff), "map.tif.gz");
+    assert_eq!((file.storage.format, file.storage.packed), ("GeoTIFF", Some("gzip")));
+    let file = read(&gzip(&tile(31)), "S12W077.hgt.gz");
+    assert_eq!(file.georeference.origin, Some(DVec2::new(-77.0, -11.0)));
+    refused(&gzip(&gzip(&tiff)), "twice.gz", &["packed file in a packed file"]);
+    let whole = gzip(&tiff);
+    refused(&whole[..whole.len() / 2], "cut.gz", &["gzip file cannot be unpacked"]);
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 use terraline::scene::height_map::source;
-use terraline::scene::{Encoding, HeightFile};
+use terraline::scene::{HeightFile, Interpretation};
 
 /// A file of the collection, or `None` with a printed reason.
 fn file(name: &str) -> Option<HeightFile> {
@@ -13,7 +13,7 @@ fn file(name: &str) -> Option<HeightFile> {
         println!("skipped: {} does not exist", path.display());
         return None;
     }
-    Some(source::read(&path, Encoding::Stored).unwrap_or_else(|error| panic!("{error}")))
+    Some(source::read(&path, &Interpretation::default()).unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// Size, range, voids, cell and EPSG code as the collection documents them.

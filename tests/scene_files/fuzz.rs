@@ -20,6 +20,7 @@ use terraline::engine::{Engine, FixedWorld};
 use terraline::frame::Frame;
 use terraline::plan::{Plan, SurfacePlan};
 use terraline::scene::file::{Document, parse};
+use terraline::scene::framing::Wishes;
 use terraline::scene::{Scene, SceneError, builtin, framing, write};
 use terraline::setup::SetupError;
 use terraline::study::error::Sample;
@@ -169,7 +170,9 @@ fn from_text((text, sets): (String, Vec<String>)) -> Result<Scene, Stop> {
 fn from_grid((grid, sets): (String, Vec<String>)) -> Result<Scene, Stop> {
     let path = FOLDER.path().join("grid.asc");
     std::fs::write(&path, grid).map_err(|error| Stop::Wrong(error.to_string()))?;
-    let framing = framing::read(&path, &sets, Some((16, 12))).map_err(refused)?;
+    let framing =
+        framing::read(&[&path], &sets, &Wishes { size: Some((16, 12)), ..Wishes::default() })
+            .map_err(refused)?;
     let file = framing.file(&framing.scene, &FOLDER.path().join("grid.toml")).map_err(refused)?;
     reads_back(&framing.scene, &file)?;
     Ok(framing.scene)
@@ -262,7 +265,7 @@ fn study(scene: &Scene, plan: &Plan, frame: &Frame) -> Result<(), Stop> {
 }
 
 fn written(scene: &Scene) -> String {
-    write::toml(scene, scene.terrain().map_or("", |terrain| &terrain.source))
+    write::toml(scene, scene.terrain().map_or("", |terrain| &terrain.source.file))
 }
 
 #[test]

@@ -43,7 +43,9 @@ pub fn file_with(section: &Section, key: &Key, value: &str) -> String {
 pub fn legal(key: &Key) -> Vec<String> {
     match &key.kind {
         // What a map of the program cannot be.
-        Kind::Word(..) if key.name == "encoding" => vec!["\"stored\"".to_owned()],
+        _ if ["encoding", "tiles", "thin"].contains(&key.name) => {
+            key.default.iter().cloned().collect()
+        }
         Kind::Text { .. } => key.default.iter().cloned().collect(),
         kind => legal_of(kind),
     }
@@ -114,10 +116,12 @@ pub fn illegal(kind: &Kind) -> Vec<String> {
                 all.extend(last.cloned());
                 format!("[{}]", all.join(", "))
             };
-            let short = counts.start() - 1;
-            let counts = [array(short, None), array(counts.end() + 1, None), "7".to_owned()];
+            let short = counts.start().checked_sub(1);
+            let counts = [short, Some(counts.end() + 1)].into_iter().flatten();
+            let counts = counts.map(|count| array(count, None)).chain(["7".to_owned()]);
             let bad = illegal(of);
-            counts.into_iter().chain(bad.iter().map(|bad| array(short, Some(bad)))).collect()
+            let bad = bad.iter().map(|bad| array(short.unwrap_or(0), Some(bad)));
+            counts.chain(bad).collect()
         }
     }
 }

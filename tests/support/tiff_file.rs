@@ -4,9 +4,11 @@ use std::io::Write as _;
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
+use ruzstd::encoding::CompressionLevel;
 
 pub const SHORT: u16 = 3;
 pub const LONG: u16 = 4;
+pub const FLOAT: u16 = 11;
 pub const DOUBLE: u16 = 12;
 pub const LONG8: u16 = 16;
 
@@ -41,7 +43,7 @@ pub struct Kind {
 }
 
 impl Kind {
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 11] = [
         Self { format: 1, bits: 8 },
         Self { format: 2, bits: 8 },
         Self { format: 1, bits: 16 },
@@ -50,17 +52,33 @@ impl Kind {
         Self { format: 2, bits: 32 },
         Self { format: 3, bits: 32 },
         Self { format: 3, bits: 64 },
+        Self { format: 1, bits: 64 },
+        Self { format: 2, bits: 64 },
+        Self { format: 3, bits: 16 },
     ];
 
     /// A sample, highest byte first.
     fn bytes(self, value: f64) -> Vec<u8> {
         let all = match (self.format, self.bits) {
+            (3, 16) => return half(value).to_be_bytes().to_vec(),
             (3, 32) => return (value as f32).to_be_bytes().to_vec(),
             (3, _) => return value.to_be_bytes().to_vec(),
             _ => (value as i64).to_be_bytes(),
         };
         all[8 - self.bits as usize / 8..].to_vec()
     }
+}
+
+/// The bits of a value that is a normal binary16 number or 0.
+fn half(value: f64) -> u16 {
+    let bits = (value as f32).to_bits();
+    if value == 0.0 {
+        return (bits >> 16) as u16;
+    }
+    // From 8 bits of exponent to 5, from 23 of fraction to 10.
+    let exponent = ((bits >> 23) & 0xFF) + 15 - 127;
+    assert!((1..31).contains(&exponent) && bits & 0x1FFF == 0, "{value}");
+    ((bits >> 16) & 0x8000 | (exponent << 10) | (bits >> 13) & 0x3FF) as u16
 }
 
 /// How a file is written.
@@ -153,6 +171,7 @@ pub fn pack(bytes: &[u8], compression: u64) -> Vec<u8> {
             encoder.finish().expect("memory")
         }
         32773 => packbits(bytes),
+        50000 => ruzstd::encoding::compress_to_vec(bytes, CompressionLevel::Fastest),
         _ => bytes.to_vec(),
     }
 }
@@ -282,7 +301,7 @@ impl TiffFile {
             .map(|(tag, kind, values)| {
                 let width = match *kind {
                     SHORT => 2,
-                    LONG => 4,
+                    LONG | FLOAT => 4,
                     _ => 8,
                 };
                 let bytes = values.iter().flat_map(|&value| self.number(value, width)).collect();

@@ -25,7 +25,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     #[cfg(rtl)]
-    Cosim(cosim::Cosim),
+    Cosim(Box<cosim::Cosim>),
     /// Draw a scene with the RTL and compare it with the emulator: left out, there is no Verilator.
     #[cfg(not(rtl))]
     Cosim {

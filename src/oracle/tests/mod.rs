@@ -71,9 +71,8 @@ pub(super) fn with_holes(map: &HeightMap, share: f64, seed: u64) -> HeightMap {
 
 pub(super) fn terrain(map: HeightMap, outside: Outside) -> Terrain {
     Terrain {
-        source: "test".into(),
+        source: crate::scene::MapSource::new("test"),
         map: Arc::new(map),
-        encoding: crate::scene::Encoding::Stored,
         cell: DVec2::new(1.5, 0.75),
         offset: 50.0,
         scale: 0.03,

@@ -88,7 +88,10 @@ impl View {
         if f64::from(low).abs().max(f64::from(high).abs()) > LARGEST {
             return Err((
                 format!("its samples go from {low:?} to {high:?}, which are no heights"),
-                "declare the no-data value, for example with gdal_edit -a_nodata".to_owned(),
+                format!(
+                    "where one of them marks nodes without data, add --nodata {}",
+                    if -low > high { low } else { high }
+                ),
             ));
         }
         let mut reasons = Vec::new();
@@ -101,9 +104,6 @@ impl View {
             ));
         }
         let height_unit_m = georeference.height_unit_m.unwrap_or(1.0);
-        if georeference.height_unit_m.is_none() {
-            reasons.push("the unit of heights is not stated: metres are assumed".to_owned());
-        }
 
         let unit_m = neat((cell_m.x * cell_m.y).sqrt());
         let cell = DVec2::new(neat(cell_m.x / unit_m), neat(cell_m.y / unit_m));
@@ -143,7 +143,6 @@ impl View {
         let terrain = Terrain {
             source: map.source.clone(),
             map: map.map.clone(),
-            encoding: map.encoding,
             cell: self.cell,
             offset: self.offset,
             scale: self.scale,

@@ -3,8 +3,10 @@
 use glam::DVec2;
 
 use super::error::{MapError, check_size};
-use super::found::{Found, HeightFile, Storage};
+use super::found::{Found, HeightFile, Storage, thinned};
 use super::georeference::{Georeference, PixelIs};
+use super::interpretation::Interpretation;
+use super::marks::Conversion;
 use crate::scene::shown::shown;
 
 /// What marks a node without data where the header does not say.
@@ -161,14 +163,8 @@ impl Header {
         Ok((columns as usize, rows as usize))
     }
 
-    /// Place and cell; degrees where the numbers look like degrees.
-    fn georeference(
-        &self,
-        name: &str,
-        columns: usize,
-        rows: usize,
-        notes: &mut Vec<String>,
-    ) -> Result<Georeference, MapError> {
+    /// Place and cell.
+    fn georeference(&self, name: &str, rows: usize) -> Result<Georeference, MapError> {
         let cell = match (self.size, self.dx, self.dy) {
             (Some(size), None, None) => DVec2::splat(size),
             (None, Some(dx), Some(dy)) => DVec2::new(dx, dy),
@@ -205,37 +201,39 @@ impl Header {
         let west = low(self.x_corner, self.x_center, cell.x, "x")?;
         let south = low(self.y_corner, self.y_center, cell.y, "y")?;
         let origin = DVec2::new(west, south + cell.y * (rows as f64 - 1.0));
-        let mut georeference = Georeference {
+        Ok(Georeference {
             origin: Some(origin),
             cell: Some(cell),
             pixel_is: Some(if self.x_center.is_some() { PixelIs::Point } else { PixelIs::Area }),
             ..Georeference::unknown()
-        };
-        if let Some(reason) = georeference.nonsense(columns, rows) {
-            return Err(MapError::new(
-                name,
-                format!("its header cannot be used: {reason}"),
-                "give corners and cells of a map on the Earth",
-            ));
-        }
-        notes.extend(georeference.assume(columns, rows));
-        Ok(georeference)
+        })
     }
 }
 
+/// What old programs end a text with.
+const CONTROL_Z: u8 = 0x1A;
+
 /// Decodes a grid.
-pub(super) fn decode(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
-    let rest = bytes.strip_prefix(MARK).unwrap_or(bytes);
+pub(super) fn decode(
+    bytes: &[u8],
+    name: &str,
+    asked: &Interpretation,
+) -> Result<HeightFile, MapError> {
+    let mut rest = bytes.strip_prefix(MARK).unwrap_or(bytes);
+    while let Some((&(CONTROL_Z | 0), before)) = rest.trim_ascii_end().split_last() {
+        rest = before;
+    }
     let mut words = Words { name, rest, line: 1 };
     let header = Header::read(&mut words)?;
     let (columns, rows) = header.counts(name)?;
+    let every = asked.every(name, columns as u64, rows as u64)?;
     let mut notes = Vec::new();
-    let georeference = header.georeference(name, columns, rows, &mut notes)?;
+    let georeference = header.georeference(name, rows)?;
     let nodes = columns * rows;
     let cut_short = |words: &Words<'_>, found: &str| {
         words.error(
             &format!("the text ends after {found} of {nodes} heights"),
-            "copy or download the file again, or correct ncols and nrows",
+            "give the whole file, or correct ncols and nrows",
         )
     };
     // A height and the space after it take two bytes at least.
@@ -249,6 +247,7 @@ pub(super) fn decode(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
         return Err(cut_short(&Words { name, rest: &[], line }, &found.to_string()));
     }
     let nodata = header.nodata.unwrap_or(DEFAULT_NODATA);
+    let conversion = Conversion::of_floats(Some(nodata), asked.nodata);
     let mut marked = 0_usize;
     let mut rounded = false;
     let mut samples = Vec::with_capacity(nodes);
@@ -257,10 +256,10 @@ pub(super) fn decode(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
             return Err(cut_short(&words, &samples.len().to_string()));
         };
         let value = words.number(word)?;
-        let void = value == nodata;
-        marked += usize::from(void);
-        rounded |= value.abs() > 16_777_216.0 && value.is_finite() && !void;
-        samples.push(if void { f32::NAN } else { value as f32 });
+        let (height, _) = conversion.height(value);
+        marked += usize::from(height.is_nan());
+        rounded |= height.abs() > 16_777_216.0 && height.is_finite();
+        samples.push(height);
     }
     if words.next().is_some() {
         return Err(words.error(
@@ -275,11 +274,14 @@ pub(super) fn decode(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
         notes.push("heights were rounded to 32-bit floats, which hold 7 digits".to_owned());
     }
     let storage = Storage {
+        packed: None,
         format: "ESRI ASCII grid",
         sample: "text",
         compression: None,
         layout: None,
         byte_order: None,
     };
-    Found { columns, rows, samples, storage, georeference }.finish(name, header.nodata, notes)
+    let (nodata, samples) = (header.nodata, thinned(samples, columns, every));
+    Found { columns, rows, samples, storage, georeference, nodata, conversion, notes }
+        .finish(name, every, asked)
 }

@@ -1,6 +1,10 @@
 //! What maps may be, and the message for those that are not.
 
+use std::path::Path;
+
 use thiserror::Error;
+
+use crate::scene::shown::quote;
 
 /// A map has at most this many nodes in each direction.
 pub const MAX_SIDE: u32 = 16384;
@@ -33,8 +37,11 @@ impl MapError {
     }
 }
 
-/// Refuses more nodes than a map may have, and no nodes at all.
-pub(super) fn check_size(name: &str, columns: u64, rows: u64) -> Result<(), MapError> {
+/// A header that claims more nodes than this in one direction is not believed.
+const LARGEST_CLAIM: u64 = 1 << 20;
+
+/// Refuses a map of no nodes, and claims that no file can keep.
+pub(super) fn check_sides(name: &str, columns: u64, rows: u64) -> Result<(), MapError> {
     if columns == 0 || rows == 0 {
         return Err(MapError::new(
             name,
@@ -42,17 +49,35 @@ pub(super) fn check_size(name: &str, columns: u64, rows: u64) -> Result<(), MapE
             "give a file that holds a map",
         ));
     }
-    let side = u64::from(MAX_SIDE);
-    if columns > side || rows > side || columns * rows > MAX_NODES {
+    if columns.max(rows) > LARGEST_CLAIM {
         return Err(too_large(name, &format!("the header claims {columns} x {rows} nodes")));
     }
     Ok(())
 }
 
+/// Refuses more nodes than a map may have, and no nodes at all.
+pub(super) fn check_size(name: &str, columns: u64, rows: u64) -> Result<(), MapError> {
+    check_sides(name, columns, rows)?;
+    if columns.max(rows) > u64::from(MAX_SIDE) || columns * rows > MAX_NODES {
+        return Err(too_large(name, &format!("the header claims {columns} x {rows} nodes")));
+    }
+    Ok(())
+}
+
+/// The message for more nodes than a map may have.
 pub(super) fn too_large(name: &str, reason: &str) -> MapError {
     MapError::new(
         name,
         reason,
-        format!("crop or thin the map to at most {MAX_SIDE} nodes a side and {MAX_NODES} in all"),
+        format!(
+            "a map has at most {MAX_SIDE} nodes a side and {MAX_NODES} in all; {} halves its sides",
+            gdal("gdal_translate -outsize 50% 50% -r average", name)
+        ),
     )
+}
+
+/// A command that makes a GeoTIFF of a file: `command IN OUT.tif`.
+pub(super) fn gdal(command: &str, name: &str) -> String {
+    let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    format!("{command} {} {}", quote(name), quote(&format!("{stem}-new.tif")))
 }

@@ -2,7 +2,10 @@
 
 use super::error::MapError;
 use super::georeference::Georeference;
+use super::interpretation::Interpretation;
 use super::map::HeightMap;
+use super::marks::{self, Conversion};
+use crate::scene::shown::{quote, shown};
 use crate::scene::words::Words;
 
 /// How the samples of a file stand for heights.
@@ -36,6 +39,8 @@ impl Encoding {
 pub struct Storage {
     /// Name of the format.
     pub format: &'static str,
+    /// What the file was in: `zip` or `gzip`.
+    pub packed: Option<&'static str>,
     /// Type of a sample.
     pub sample: &'static str,
     /// Compression and predictor, where the format has a choice.
@@ -55,6 +60,10 @@ pub struct HeightFile {
     pub georeference: Georeference,
     /// How they are stored.
     pub storage: Storage,
+    /// Columns and rows of the file.
+    pub whole: (usize, usize),
+    /// Every n-th node of every n-th row of it was read.
+    pub every: usize,
     /// The value that marks nodes without data, if the file declares one.
     pub nodata: Option<f64>,
     /// What was assumed, changed or left out, a sentence each.
@@ -63,21 +72,58 @@ pub struct HeightFile {
 
 /// What a reader has found, before it is known to be a map.
 pub(super) struct Found {
+    /// Columns and rows of the file.
     pub(super) columns: usize,
     pub(super) rows: usize,
+    /// Heights of the nodes that are kept, row 0 north; NaN where a mark stands.
     pub(super) samples: Vec<f32>,
     pub(super) storage: Storage,
     pub(super) georeference: Georeference,
+    /// The mark that the file declares.
+    pub(super) nodata: Option<f64>,
+    /// What made heights of the stored samples.
+    pub(super) conversion: Conversion,
+    pub(super) notes: Vec<String>,
+}
+
+/// Keeps every n-th of every n-th row.
+pub(super) fn thinned(samples: Vec<f32>, columns: usize, every: usize) -> Vec<f32> {
+    if every == 1 {
+        return samples;
+    }
+    let rows = samples.chunks_exact(columns).step_by(every);
+    rows.flat_map(|row| row.iter().copied().step_by(every)).collect()
 }
 
 impl Found {
-    /// Makes infinite samples nodes without data, and refuses a map of nothing else.
+    /// What the file has, where every n-th node of every n-th row was kept.
+    fn thin(&mut self, every: usize) {
+        if every > 1 {
+            let nth = match every {
+                2 => "2nd".to_owned(),
+                3 => "3rd".to_owned(),
+                _ => format!("{every}th"),
+            };
+            self.notes.push(format!(
+                "of {} x {} nodes every {nth} of every {nth} row is read",
+                self.columns, self.rows
+            ));
+            self.columns = self.columns.div_ceil(every);
+            self.rows = self.rows.div_ceil(every);
+            self.georeference.cell = self.georeference.cell.map(|cell| cell * every as f64);
+        }
+    }
+
+    /// Of samples of which every n-th was kept: makes infinite ones nodes without data, settles what
+    /// the file leaves open, and refuses a map without data.
     pub(super) fn finish(
         mut self,
         name: &str,
-        nodata: Option<f64>,
-        mut notes: Vec<String>,
+        every: usize,
+        asked: &Interpretation,
     ) -> Result<HeightFile, MapError> {
+        let whole = (self.columns, self.rows);
+        self.thin(every);
         let mut infinite = 0_usize;
         let mut data = false;
         for sample in &mut self.samples {
@@ -94,30 +140,35 @@ impl Found {
                 "give a file with heights, or correct its no-data value",
             ));
         }
+        let mut notes = self.notes;
         if infinite > 0 {
             notes.push(format!("{infinite} infinite samples count as nodes without data"));
         }
         let map = HeightMap::new(self.columns, self.rows, self.samples);
-        notes.extend(suspicion(&map));
+        let (low, high) = map.range();
+        let relief = f64::from(high) - f64::from(low);
+        self.georeference.settle((self.columns, self.rows), relief, asked, &mut notes);
+        if let Some(reason) = self.georeference.nonsense(self.columns, self.rows) {
+            let ask = "--unit m says that coordinates are lengths";
+            let edit = format!("gdal_edit -a_ullr WEST NORTH EAST SOUTH {}", quote(name));
+            return Err(MapError::new(
+                name,
+                format!("its georeference cannot be used: {reason}"),
+                format!("{ask}, and {edit} gives other corners"),
+            ));
+        }
+        notes.extend(marks::suspicions(&map, &self.conversion));
+        if let Some(mark) = asked.nodata {
+            notes.push(format!("samples of {} are no data, as asked for", shown(mark)));
+        }
         Ok(HeightFile {
             map,
             georeference: self.georeference,
             storage: self.storage,
-            nodata,
+            whole,
+            every,
+            nodata: self.nodata,
             notes,
         })
     }
-}
-
-/// A lowest sample that usually means "no data", where the file does not declare it.
-fn suspicion(map: &HeightMap) -> Option<String> {
-    let low = map.range().0;
-    // No ground lies 12 km under the sea, and the usual marks all lie below that but -9999.
-    let usual = low == -9999.0 || low == -32768.0 || low == -32767.0 || low < -1e30;
-    usual.then(|| {
-        format!(
-            "the lowest sample is {low:?}, which often marks nodes without data, but the file does \
-             not declare it"
-        )
-    })
 }

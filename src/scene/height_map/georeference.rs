@@ -2,19 +2,19 @@
 
 use glam::DVec2;
 
+use super::interpretation::{CoordinateUnit, Interpretation};
+use super::projection::{Ellipsoid, Projection};
+use super::unit;
 use crate::scene::shown::shown;
-
-/// Semi-major axis of the WGS84 ellipsoid in metres.
-const SEMI_MAJOR_M: f64 = 6_378_137.0;
-
-/// Flattening of the WGS84 ellipsoid.
-const FLATTENING: f64 = 1.0 / 298.257_223_563;
 
 /// Nearer to a pole than this latitude, a degree of longitude says nothing about a whole map.
 const POLAR: f64 = 89.9;
 
-/// Cells of this size and more are no degrees, where a file does not say what they are.
+/// Cells of level ground are taken for degrees below this size, where a file does not say.
 const LARGEST_DEGREES: f64 = 0.5;
+
+/// Cells at an edge that differ from those in the middle by more than this share are mentioned.
+const UNEVEN: f64 = 0.05;
 
 /// What the coordinates of a map count.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +54,10 @@ impl PixelIs {
 pub struct Georeference {
     /// What the coordinates count.
     pub coordinates: Coordinates,
+    /// How lengths of the coordinates relate to lengths on the ground.
+    pub projection: Projection,
+    /// The body that the map is of.
+    pub ellipsoid: Ellipsoid,
     /// EPSG code of the coordinate reference system.
     pub epsg: Option<u16>,
     /// Name of the coordinate reference system.
@@ -73,6 +77,8 @@ impl Georeference {
     pub fn unknown() -> Self {
         Self {
             coordinates: Coordinates::Unknown,
+            projection: Projection::TrueToScale,
+            ellipsoid: Ellipsoid::WGS84,
             epsg: None,
             citation: None,
             origin: None,
@@ -106,23 +112,115 @@ impl Georeference {
             .then(|| format!("it claims latitudes from {south} to {north} degrees"))
     }
 
-    /// Where the file gives a grid but not what its coordinates count: degrees if they look like
-    /// degrees, metres otherwise. Returns the sentence that says so.
-    pub(super) fn assume(&mut self, columns: usize, rows: usize) -> Option<String> {
-        let (origin, far) = (self.origin?, self.far_corner(columns, rows)?);
-        if self.coordinates != Coordinates::Unknown {
-            return None;
+    /// Settles what the file leaves open: as the user says, or else by a guess that is told.
+    ///
+    /// `relief` is the difference of the highest and the lowest sample.
+    pub(super) fn settle(
+        &mut self,
+        (columns, rows): (usize, usize),
+        relief: f64,
+        asked: &Interpretation,
+        notes: &mut Vec<String>,
+    ) {
+        if let Some(unit) = asked.unit {
+            let before = self.coordinates;
+            self.coordinates = match unit {
+                CoordinateUnit::Degrees => Coordinates::Degrees,
+                CoordinateUnit::Length(unit_m) => Coordinates::Lengths { unit_m },
+            };
+            if before != Coordinates::Unknown && before != self.coordinates {
+                notes.push(format!(
+                    "coordinates are taken as {}, as asked for; the file has {}",
+                    counted(self.coordinates),
+                    counted(before)
+                ));
+            }
+        } else if self.coordinates == Coordinates::Unknown {
+            notes.extend(self.guess(columns, rows, relief));
         }
-        let degrees = origin.x.abs().max(far.x.abs()) <= 360.0
+        if let Some(unit_m) = asked.height_unit_m {
+            if let Some(before) = self.height_unit_m.filter(|&before| before != unit_m) {
+                notes.push(format!(
+                    "heights are taken as {}, as asked for; the file has {}",
+                    unit::name(unit_m),
+                    unit::name(before)
+                ));
+            }
+            self.height_unit_m = Some(unit_m);
+        }
+        if self.height_unit_m.is_none() {
+            let plan = match self.coordinates {
+                Coordinates::Lengths { unit_m } if unit_m != 1.0 => {
+                    format!(", though coordinates are {}", unit::name(unit_m))
+                }
+                _ => String::new(),
+            };
+            notes.push(format!(
+                "the unit of heights is not stated: metres are assumed{plan} (--height-unit ft, or \
+                 another, settles it)"
+            ));
+        }
+        notes.extend(self.ground_remark(columns, rows));
+    }
+
+    /// Where the file gives a grid but not what its coordinates count: what is likelier of degrees
+    /// and metres. Returns the sentence that says so.
+    ///
+    /// Ground that rises by more than its own width is none, and a degree is some 100 km wide: so
+    /// samples in metres rise by more units than a map has degrees, and by fewer than it has metres.
+    fn guess(&mut self, columns: usize, rows: usize, relief: f64) -> Option<String> {
+        let (origin, far, cell) = (self.origin?, self.far_corner(columns, rows)?, self.cell?);
+        let on_the_globe = origin.x.abs().max(far.x.abs()) <= 360.0
             && origin.y.abs().max(far.y.abs()) <= 90.0
-            && self.cell?.max_element() < LARGEST_DEGREES;
-        let (coordinates, what) = if degrees {
-            (Coordinates::Degrees, "they and the cells look like degrees, which are assumed")
+            && (origin - far).abs().x <= 360.0;
+        let longer = (origin - far).abs().max_element() + cell.max_element();
+        let too_steep = relief > longer;
+        let level = relief <= 0.0 && cell.max_element() < LARGEST_DEGREES;
+        let (coordinates, what) = if on_the_globe && (too_steep || level) {
+            (Coordinates::Degrees, "they and the relief look like degrees, which are assumed")
         } else {
             (Coordinates::Lengths { unit_m: 1.0 }, "metres are assumed")
         };
         self.coordinates = coordinates;
-        Some(format!("the file does not say what its coordinates count: {what}"))
+        Some(format!(
+            "the file does not say what its coordinates count: {what} (--unit deg, m or ft settles it)"
+        ))
+    }
+
+    /// What there is to say of lengths on the ground.
+    fn ground_remark(&self, columns: usize, rows: usize) -> Option<String> {
+        let lengths = matches!(self.coordinates, Coordinates::Lengths { .. });
+        if let (true, Projection::Distorted(name)) = (lengths, &self.projection) {
+            return Some(format!(
+                "lengths of its projection ({name}) are not lengths on the ground, which cells are \
+                 taken for: they may be off by some per cent; gdalwarp -t_srs with a local \
+                 projection such as UTM makes them true"
+            ));
+        }
+        let body = (!self.ellipsoid.is_earth()).then(|| {
+            format!(
+                "the map is not of the Earth: its body has a radius of {} km",
+                shown(self.ellipsoid.semi_major_m / 1e3)
+            )
+        });
+        let (north, south) = (self.origin?.y, self.far_corner(columns, rows)?.y);
+        let middle = self.cell_at_m((north + south) / 2.0)?;
+        let off = |northing: f64| {
+            let cell = self.cell_at_m(northing).unwrap_or(DVec2::ZERO);
+            let off = cell / middle - 1.0;
+            if off.x.abs() > off.y.abs() { off.x } else { off.y }
+        };
+        let (north, south) = (off(north), off(south));
+        let uneven = (north.abs().max(south.abs()) > UNEVEN).then(|| {
+            format!(
+                "cells are taken as in the middle of the map; on the ground they are {} at its \
+                 north edge and {} at its south edge",
+                compared(north),
+                compared(south)
+            )
+        });
+        let remarks: Vec<String> = body.into_iter().chain(uneven).collect();
+        (!remarks.is_empty()).then(|| remarks.join("; "))
     }
 
     /// Coordinates (east, north) of the last node, the south-east one.
@@ -132,66 +230,66 @@ impl Georeference {
         Some(self.origin? + cell * cells)
     }
 
-    /// Latitude of the middle of a map in degrees.
+    /// Latitude of the middle of a map in degrees, where cells depend on it.
     pub fn middle_latitude(&self, columns: usize, rows: usize) -> Option<f64> {
-        if self.coordinates != Coordinates::Degrees {
-            return None;
-        }
-        Some((self.origin?.y + self.far_corner(columns, rows)?.y) / 2.0)
+        self.latitude((self.origin?.y + self.far_corner(columns, rows)?.y) / 2.0)
     }
 
-    /// Size of a cell (eastward, southward) in metres; of degrees, at the map's middle latitude.
+    /// Latitude of a northing in degrees, where the coordinates tell it.
+    fn latitude(&self, northing: f64) -> Option<f64> {
+        match (self.coordinates, &self.projection) {
+            (Coordinates::Degrees, _) => Some(northing),
+            (Coordinates::Lengths { unit_m }, Projection::Cylindrical(projection)) => {
+                Some(projection.latitude(northing * unit_m, self.ellipsoid))
+            }
+            _ => None,
+        }
+    }
+
+    /// Size of a cell (eastward, southward) in metres on the ground; where it depends on the
+    /// latitude, in the middle of the map.
     ///
     /// `None` where the file does not say, or so near to a pole that it means nothing.
     pub fn cell_m(&self, columns: usize, rows: usize) -> Option<DVec2> {
-        let cell = self.cell?;
-        match self.coordinates {
-            Coordinates::Degrees => {
-                let latitude = self.middle_latitude(columns, rows)?;
-                (latitude.abs() <= POLAR).then(|| cell * degree_m(latitude))
-            }
-            Coordinates::Lengths { unit_m } => Some(cell * unit_m),
-            Coordinates::Unknown => None,
+        match (self.coordinates, &self.projection) {
+            (
+                Coordinates::Lengths { unit_m },
+                Projection::TrueToScale | Projection::Distorted(_),
+            ) => Some(self.cell? * unit_m),
+            _ => self.cell_at_m((self.origin?.y + self.far_corner(columns, rows)?.y) / 2.0),
         }
+    }
+
+    /// Size of a cell at a northing, where it depends on it.
+    fn cell_at_m(&self, northing: f64) -> Option<DVec2> {
+        let (cell, latitude) = (self.cell?, self.latitude(northing)?);
+        let metres = match (self.coordinates, &self.projection) {
+            (Coordinates::Lengths { unit_m }, Projection::Cylindrical(projection)) => {
+                unit_m * projection.ground(latitude, self.ellipsoid)
+            }
+            _ => self.ellipsoid.degree_m(latitude),
+        };
+        (latitude.abs() <= POLAR).then(|| cell * metres)
     }
 }
 
-/// Metres of a degree of longitude and of latitude at a latitude in degrees, on WGS84.
-///
-/// With e² = f(2 - f) and s = sin φ, the meridian's radius of curvature is
-/// M = a(1 - e²)/(1 - e²s²)^(3/2), that of the prime vertical N = a/√(1 - e²s²), and a circle of
-/// latitude has the radius N cos φ.
-pub fn degree_m(latitude: f64) -> DVec2 {
-    let e2 = FLATTENING * (2.0 - FLATTENING);
-    let (sin, cos) = (libm::sin(latitude.to_radians()), libm::cos(latitude.to_radians()));
-    let w = 1.0 - e2 * sin * sin;
-    let meridian = SEMI_MAJOR_M * (1.0 - e2) / (w * w.sqrt());
-    let parallel = SEMI_MAJOR_M / w.sqrt() * cos;
-    DVec2::new(parallel, meridian) * 1.0_f64.to_radians()
+/// What coordinates count, in words.
+fn counted(coordinates: Coordinates) -> String {
+    match coordinates {
+        Coordinates::Degrees => "degrees".to_owned(),
+        Coordinates::Lengths { unit_m } => unit::name(unit_m),
+        Coordinates::Unknown => "nothing".to_owned(),
+    }
+}
+
+/// "12 % smaller".
+fn compared(off: f64) -> String {
+    format!("{:.0} % {}", 100.0 * off.abs(), if off < 0.0 { "smaller" } else { "larger" })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn degrees_are_as_long_as_tables_say() {
-        // Published lengths in km, to the metre.
-        for (latitude, up, along) in [
-            (0.0, 110_574.0, 111_320.0),
-            (15.0, 110_649.0, 107_551.0),
-            (30.0, 110_852.0, 96_486.0),
-            (45.0, 111_132.0, 78_847.0),
-            (60.0, 111_412.0, 55_800.0),
-            (75.0, 111_618.0, 28_902.0),
-            (90.0, 111_694.0, 0.0),
-        ] {
-            let degree = degree_m(latitude);
-            assert!((degree.x - along).abs() < 0.6, "{latitude}: {degree}");
-            assert!((degree.y - up).abs() < 0.6, "{latitude}: {degree}");
-            assert_eq!(degree_m(-latitude), degree);
-        }
-    }
 
     #[test]
     fn cells_in_metres() {
@@ -205,7 +303,10 @@ mod tests {
         assert_eq!(georeference.far_corner(3, 2), Some(DVec2::new(14.0, 88.0)));
         georeference.coordinates = Coordinates::Degrees;
         assert_eq!(georeference.middle_latitude(3, 2), Some(88.5));
-        assert_eq!(georeference.cell_m(3, 2), Some(DVec2::new(2.0, 1.0) * degree_m(88.5)));
+        assert_eq!(
+            georeference.cell_m(3, 2),
+            Some(DVec2::new(2.0, 1.0) * Ellipsoid::WGS84.degree_m(88.5))
+        );
         georeference.origin = Some(DVec2::new(10.0, 90.45));
         assert_eq!(georeference.cell_m(3, 2), None);
     }

@@ -1,54 +1,76 @@
-//! SRTM `.hgt`: a square of big-endian 16-bit heights in metres, one degree wide, corner nodes
-//! included; also inside a `.zip`.
-
-use std::io::{Cursor, Read};
+//! SRTM `.hgt`: a tile of big-endian 16-bit heights in metres, one degree wide and high, corner
+//! nodes included.
 
 use glam::DVec2;
-use zip::ZipArchive;
 
-use super::error::{DEFLATE_RATIO, MAX_NODES, MapError, check_size};
-use super::found::{Found, HeightFile, Storage};
+use super::error::{MapError, check_size, gdal};
+use super::found::{Found, HeightFile, Storage, thinned};
 use super::georeference::{Coordinates, Georeference, PixelIs};
-use crate::scene::shown::one_line;
+use super::interpretation::Interpretation;
+use super::marks::Conversion;
 
 /// What marks a node without data.
 const VOID: i16 = i16::MIN;
 
-/// A zip file of one tile has few entries; a directory of more is not walked.
-const MAX_ENTRIES: usize = 1000;
+/// Rows of the usual tiles: cells of 3 and of 1 arc seconds.
+const USUAL_ROWS: [usize; 2] = [1201, 3601];
 
-/// The square root of a length in samples, if there is one.
-fn side(bytes: usize) -> Option<usize> {
+/// Cells are as high as wide, or, towards the poles, wider by one of these factors in halves.
+const USUAL_WIDTHS: [usize; 6] = [2, 3, 4, 6, 8, 12];
+
+/// Columns and rows of so many bytes: those of a usual tile, or else a square.
+fn sides(bytes: usize) -> Option<(usize, usize)> {
     let samples = bytes / 2;
-    let side = samples.isqrt();
-    (bytes.is_multiple_of(2) && side > 1 && side * side == samples).then_some(side)
+    let square = samples.isqrt();
+    let usual = USUAL_ROWS.into_iter().find_map(|rows| {
+        let columns = samples / rows;
+        let cells = columns.saturating_sub(1);
+        let is_usual = USUAL_WIDTHS.iter().any(|wide| cells * wide == (rows - 1) * 2);
+        (cells > 0 && columns * rows == samples && is_usual).then_some((columns, rows))
+    });
+    let square = (square > 1 && square * square == samples).then_some((square, square));
+    usual.or(square).filter(|_| bytes.is_multiple_of(2))
 }
 
 /// Whether a file of this length may be taken for a tile without its name saying so.
 pub(super) fn usual_size(bytes: usize) -> bool {
-    matches!(side(bytes), Some(1201 | 3601))
+    sides(bytes).is_some_and(|(columns, rows)| columns == rows && USUAL_ROWS.contains(&rows))
 }
 
 /// Decodes a tile; the name gives its place.
-pub(super) fn decode(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
-    let Some(side) = side(bytes.len()) else {
+pub(super) fn decode(
+    bytes: &[u8],
+    name: &str,
+    asked: &Interpretation,
+) -> Result<HeightFile, MapError> {
+    if let Some(order) = looks_like_floats(bytes) {
         return Err(MapError::new(
             name,
-            format!("{} bytes are not a square of 16-bit heights", bytes.len()),
-            "download the tile again: 1201 x 1201 heights are 2884802 bytes, 3601 x 3601 are \
-             25934402",
+            format!(
+                "its samples look like 32-bit floats ({order}), not like the 16-bit heights of a tile"
+            ),
+            format!(
+                "give it a header that says so (ENVI's .hdr beside it, as radar programs write), \
+                 then {}",
+                gdal("gdal_translate", name)
+            ),
+        ));
+    }
+    let Some((columns, rows)) = sides(bytes.len()) else {
+        return Err(MapError::new(
+            name,
+            format!("{} bytes are not a tile of 16-bit heights", bytes.len()),
+            "a tile has 1201 x 1201 heights (2884802 bytes), 3601 x 3601 (25934402), fewer columns \
+             towards the poles (1801 x 3601 are 12970802), or is another square",
         ));
     };
-    check_size(name, side as u64, side as u64)?;
+    check_size(name, columns as u64, rows as u64)?;
+    let conversion = Conversion::of_integers(Some(f64::from(VOID)), asked.nodata);
     let (pairs, _) = bytes.as_chunks::<2>();
     let samples = pairs
         .iter()
-        .map(|&pair| match i16::from_be_bytes(pair) {
-            VOID => f32::NAN,
-            height => f32::from(height),
-        })
+        .map(|&pair| conversion.height(f64::from(i16::from_be_bytes(pair))).0)
         .collect();
-    let cell = 1.0 / (side as f64 - 1.0);
     let mut notes = Vec::new();
     let origin = corner(name).map(|corner| corner + DVec2::new(0.0, 1.0));
     if origin.is_none() {
@@ -58,9 +80,9 @@ pub(super) fn decode(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
                 .to_owned(),
         );
     }
-    if !matches!(side, 1201 | 3601) {
+    if !USUAL_ROWS.contains(&rows) {
         notes.push(format!(
-            "{side} x {side} is no usual size; the tile is taken as one degree wide"
+            "{columns} x {rows} is no usual size; the tile is taken as one degree wide"
         ));
     }
     let georeference = Georeference {
@@ -69,22 +91,60 @@ pub(super) fn decode(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
         citation: Some("WGS 84".to_owned()),
         // Without a name, the middle of the tile is put on the equator.
         origin: Some(origin.unwrap_or(DVec2::new(0.0, 0.5))),
-        cell: Some(DVec2::splat(cell)),
+        cell: Some(DVec2::new(1.0 / (columns as f64 - 1.0), 1.0 / (rows as f64 - 1.0))),
         height_unit_m: Some(1.0),
         pixel_is: Some(PixelIs::Point),
+        ..Georeference::unknown()
     };
     let storage = Storage {
+        packed: None,
         format: "SRTM HGT",
         sample: "int16",
         compression: None,
         layout: None,
         byte_order: Some("big-endian"),
     };
-    Found { columns: side, rows: side, samples, storage, georeference }.finish(
-        name,
-        Some(f64::from(VOID)),
-        notes,
-    )
+    let nodata = Some(f64::from(VOID));
+    let every = asked.every(name, columns as u64, rows as u64)?;
+    let samples = thinned(samples, columns, every);
+    Found { columns, rows, samples, storage, georeference, nodata, conversion, notes }
+        .finish(name, every, asked)
+}
+
+/// The byte order in which the samples make sense as 32-bit floats and not as 16-bit integers.
+///
+/// Radar programs call such rasters `.hgt` too. Heights change little from sample to sample; the
+/// halves of floats taken for heights jump about.
+fn looks_like_floats(bytes: &[u8]) -> Option<&'static str> {
+    let (words, rest) = bytes.as_chunks::<4>();
+    let (pairs, _) = bytes.as_chunks::<2>();
+    if !rest.is_empty() || words.len() < 16 {
+        return None;
+    }
+    /// Larger heights or phases are none.
+    const LARGEST: f32 = 1e5;
+    const SMALLEST: f32 = 1e-6;
+    let share = |is: fn([u8; 4]) -> f32| {
+        let sound = |&&word: &&[u8; 4]| {
+            let value = is(word);
+            value == 0.0 || value.is_nan() || (SMALLEST..LARGEST).contains(&value.abs())
+        };
+        words.iter().filter(sound).count() as f64 / words.len() as f64
+    };
+    // Between neighbouring samples of one kind.
+    let jumps = pairs.windows(2).filter(|pair| {
+        let [a, b] = [pair[0], pair[1]].map(|pair| i32::from(i16::from_be_bytes(pair)));
+        (a - b).abs() > 2000 && a != i32::from(VOID) && b != i32::from(VOID)
+    });
+    if jumps.count() < pairs.len() / 4 {
+        return None;
+    }
+    let sound = |read| share(read) > 0.95;
+    match (sound(f32::from_le_bytes), sound(f32::from_be_bytes)) {
+        (true, _) => Some("little-endian"),
+        (_, true) => Some("big-endian"),
+        _ => None,
+    }
 }
 
 /// The south-west corner (east, north) in degrees that a tile is named after.
@@ -114,61 +174,6 @@ fn corner(name: &str) -> Option<DVec2> {
     ((-90.0..90.0).contains(&north) && east.abs() <= 180.0).then_some(DVec2::new(east, north))
 }
 
-/// Decodes the one tile of a zip file.
-pub(super) fn unzip(bytes: &[u8], name: &str) -> Result<HeightFile, MapError> {
-    let damaged = |reason: &str| {
-        MapError::new(
-            name,
-            format!("the zip file is damaged: {}", one_line(reason)),
-            "download the file again",
-        )
-    };
-    let mut archive =
-        ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error.to_string()))?;
-    if archive.len() > MAX_ENTRIES {
-        return Err(MapError::new(
-            name,
-            format!("the zip file has {} entries", archive.len()),
-            "unpack it and give the height file itself",
-        ));
-    }
-    let tiles: Vec<String> = archive
-        .file_names()
-        .filter_map(|entry| entry.ok().map(|entry| entry.into_owned()))
-        .filter(|entry| entry.to_lowercase().ends_with(".hgt"))
-        .collect();
-    let [tile] = tiles.as_slice() else {
-        return Err(MapError::new(
-            name,
-            match tiles.len() {
-                0 => "the zip file holds no .hgt file".to_owned(),
-                count => format!("the zip file holds {count} .hgt files"),
-            },
-            "unpack it and give a height file",
-        ));
-    };
-    let entry = archive.by_name(tile).map_err(|error| damaged(&error.to_string()))?;
-    let limit = 2 * MAX_NODES;
-    // What an entry claims to unpack to is checked against what its bytes can hold.
-    let honest = (bytes.len() as u64).saturating_mul(DEFLATE_RATIO);
-    if entry.size() > limit || entry.size() > honest {
-        return Err(MapError::new(
-            name,
-            format!("its entry claims to unpack to {} bytes", entry.size()),
-            "download the file again: a tile of 3601 x 3601 heights has 25934402",
-        ));
-    }
-    let size = entry.size();
-    let mut unpacked = Vec::with_capacity(size as usize);
-    entry.take(size + 1).read_to_end(&mut unpacked).map_err(|error| damaged(&error.to_string()))?;
-    if unpacked.len() as u64 != size {
-        return Err(damaged("its entry is not as long as it claims"));
-    }
-    let mut file = decode(&unpacked, &format!("{name}:{tile}"))?;
-    file.storage.format = "SRTM HGT in ZIP";
-    Ok(file)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -183,5 +188,15 @@ mod tests {
         }
         assert_eq!(corner("N91E000.hgt"), None);
         assert_eq!(corner("N36W085ä.hgt"), Some(DVec2::new(-85.0, 36.0)));
+    }
+
+    #[test]
+    fn sizes_of_tiles() {
+        for (columns, rows) in [(1201, 1201), (3601, 3601), (1801, 3601), (601, 1201), (50, 50)] {
+            assert_eq!(sides(2 * columns * rows), Some((columns, rows)));
+        }
+        for bytes in [0, 1, 2, 2 * 1201 * 1202, 2 * 1201 * 1201 + 1] {
+            assert_eq!(sides(bytes), None, "{bytes}");
+        }
     }
 }

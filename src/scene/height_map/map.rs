@@ -29,6 +29,14 @@ impl HeightMap {
         Self { columns, rows, samples, range, voids }
     }
 
+    /// The same with no data where a sample has a value; `None` if that is everywhere.
+    pub(in crate::scene) fn without(&self, mark: f32) -> Option<Self> {
+        let kept = |&sample: &f32| if sample == mark { f32::NAN } else { sample };
+        let samples: Vec<f32> = self.samples.iter().map(kept).collect();
+        let data = samples.iter().any(|sample| !sample.is_nan());
+        data.then(|| Self::new(self.columns, self.rows, samples))
+    }
+
     /// Nodes in x.
     pub fn columns(&self) -> usize {
         self.columns

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use terraline::oracle::Oracle;
 use terraline::plan::Plan;
 use terraline::scene::{
-    Angles, Attitude, Camera, Colors, Encoding, HeightMap, KernelShape, NoData, Outside, Scene,
+    Angles, Attitude, Camera, Colors, HeightMap, KernelShape, MapSource, NoData, Outside, Scene,
     Screen, Surface, Terrain, load,
 };
 
@@ -36,9 +36,8 @@ pub fn builtin(name: &str, columns: u32, lines: u32) -> Scene {
 /// Ground of square cells of side one, samples as heights.
 pub fn land(map: HeightMap) -> Terrain {
     Terrain {
-        source: "hand".into(),
+        source: MapSource::new("hand"),
         map: Arc::new(map),
-        encoding: Encoding::Stored,
         cell: DVec2::ONE,
         offset: 0.0,
         scale: 1.0,

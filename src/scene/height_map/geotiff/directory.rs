@@ -33,6 +33,7 @@ pub mod tag {
     pub const GEO_TEXTS: u16 = 34737;
     pub const GDAL_METADATA: u16 = 42112;
     pub const GDAL_NODATA: u16 = 42113;
+    pub const LERC_PARAMETERS: u16 = 50674;
 }
 
 /// A TIFF file in memory.
@@ -173,6 +174,19 @@ impl<'a> Tiff<'a> {
         (0..entry.count).map(value).collect::<Result<_, _>>().map(Some)
     }
 
+    /// The first values of a tag that has at least so many.
+    pub(super) fn first_unsigned(
+        &self,
+        directory: &Directory,
+        tag: u16,
+        count: u64,
+    ) -> Result<Option<Vec<u64>>, Reason> {
+        let Some(entry) = directory.entries.get(&tag) else { return Ok(None) };
+        let shorter = TagEntry { count, ..*entry };
+        let one = Directory { entries: BTreeMap::from([(tag, shorter)]) };
+        self.unsigned(&one, tag)
+    }
+
     /// The only value of a tag, or a default where the tag is missing.
     pub(super) fn one(&self, directory: &Directory, tag: u16, default: u64) -> Result<u64, Reason> {
         match self.unsigned(directory, tag)?.as_deref() {
@@ -182,19 +196,30 @@ impl<'a> Tiff<'a> {
         }
     }
 
-    /// The `float64` values of a tag.
+    /// The values of a tag that holds numbers of any type.
     pub(super) fn doubles(
         &self,
         directory: &Directory,
         tag: u16,
     ) -> Result<Option<Vec<f64>>, Reason> {
         let Some((entry, width)) = self.entry(directory, tag)? else { return Ok(None) };
-        if entry.kind != 12 {
-            return Err(format!("tag {tag} holds no 64-bit floats"));
-        }
-        let value = |index| self.unsigned_at(entry.at + index * width, width).ok_or_else(outside);
-        let values = (0..entry.count).map(|index| value(index).map(f64::from_bits));
-        values.collect::<Result<_, _>>().map(Some)
+        let number = |at, width| self.unsigned_at(at, width).ok_or_else(outside);
+        let value = |index| -> Result<f64, Reason> {
+            let at = entry.at + index * width;
+            let bits = number(at, width)?;
+            Ok(match entry.kind {
+                1 | 3 | 4 | 16 => bits as f64,
+                6 => f64::from(bits as i8),
+                8 => f64::from(bits as i16),
+                9 => f64::from(bits as i32),
+                17 => bits as i64 as f64,
+                5 => number(at, 4)? as f64 / number(at + 4, 4)? as f64,
+                11 => f64::from(f32::from_bits(bits as u32)),
+                12 => f64::from_bits(bits),
+                _ => return Err(format!("tag {tag} holds no numbers")),
+            })
+        };
+        (0..entry.count).map(value).collect::<Result<_, _>>().map(Some)
     }
 
     /// The text of a tag, up to its end.

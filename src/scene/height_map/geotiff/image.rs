@@ -2,78 +2,10 @@
 
 use std::ops::Range;
 
-use super::super::error::{DEFLATE_RATIO, MAX_SIDE, MapError, check_size};
+use super::super::error::{MapError, check_sides, gdal};
+use super::compression::Compression;
 use super::directory::{Directory, Tiff, tag};
-
-/// Type of a sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sample {
-    U8,
-    I8,
-    U16,
-    I16,
-    U32,
-    I32,
-    F32,
-    F64,
-}
-
-impl Sample {
-    fn of(format: u64, bits: u64) -> Option<Self> {
-        Some(match (format, bits) {
-            (1, 8) => Self::U8,
-            (1, 16) => Self::U16,
-            (1, 32) => Self::U32,
-            (2, 8) => Self::I8,
-            (2, 16) => Self::I16,
-            (2, 32) => Self::I32,
-            (3, 32) => Self::F32,
-            (3, 64) => Self::F64,
-            _ => return None,
-        })
-    }
-
-    /// Name for reports.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::U8 => "uint8",
-            Self::I8 => "int8",
-            Self::U16 => "uint16",
-            Self::I16 => "int16",
-            Self::U32 => "uint32",
-            Self::I32 => "int32",
-            Self::F32 => "float32",
-            Self::F64 => "float64",
-        }
-    }
-
-    pub(super) fn bytes(self) -> usize {
-        match self {
-            Self::U8 | Self::I8 => 1,
-            Self::U16 | Self::I16 => 2,
-            Self::U32 | Self::I32 | Self::F32 => 4,
-            Self::F64 => 8,
-        }
-    }
-
-    fn is_float(self) -> bool {
-        matches!(self, Self::F32 | Self::F64)
-    }
-
-    /// Whether a sample of this type can have a value.
-    pub(super) fn can_be(self, value: f64) -> bool {
-        let (low, high) = match self {
-            Self::F32 | Self::F64 => return true,
-            Self::U8 => (0.0, f64::from(u8::MAX)),
-            Self::I8 => (f64::from(i8::MIN), f64::from(i8::MAX)),
-            Self::U16 => (0.0, f64::from(u16::MAX)),
-            Self::I16 => (f64::from(i16::MIN), f64::from(i16::MAX)),
-            Self::U32 => (0.0, f64::from(u32::MAX)),
-            Self::I32 => (f64::from(i32::MIN), f64::from(i32::MAX)),
-        };
-        value.fract() == 0.0 && (low..=high).contains(&value)
-    }
-}
+use super::sample::Sample;
 
 /// An image that the decoder may be trusted with.
 pub(super) struct Image {
@@ -91,54 +23,12 @@ pub(super) struct Image {
     pub(super) blocks: Vec<Option<Range<usize>>>,
 }
 
-/// How strips and tiles are compressed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Compression {
-    None,
-    Lzw,
-    Deflate,
-    PackBits,
-}
-
-impl Compression {
-    /// By its number; the error names a method that is not supported.
-    fn of(number: u64) -> Result<Self, &'static str> {
-        match number {
-            1 => Ok(Self::None),
-            5 => Ok(Self::Lzw),
-            8 | 32946 => Ok(Self::Deflate),
-            32773 => Ok(Self::PackBits),
-            2..=4 => Err("fax"),
-            6 | 7 => Err("JPEG"),
-            34712 => Err("JPEG 2000"),
-            34887 => Err("LERC"),
-            34925 => Err("LZMA"),
-            50000 => Err("Zstandard"),
-            50001 => Err("WebP"),
-            50002 => Err("JPEG XL"),
-            _ => Err("an unknown method"),
-        }
-    }
-
-    /// The most bytes that one byte can stand for.
-    fn ratio(self) -> u64 {
-        match self {
-            Self::None => 1,
-            // A code of at least 9 bits stands for at most 4096 bytes.
-            Self::Lzw => 4096,
-            Self::Deflate => DEFLATE_RATIO,
-            Self::PackBits => 64,
-        }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::None => "uncompressed",
-            Self::Lzw => "LZW",
-            Self::Deflate => "deflate",
-            Self::PackBits => "PackBits",
-        }
-    }
+/// What an image shows (tag 262).
+mod photometric {
+    pub const WHITE_IS_ZERO: u64 = 0;
+    pub const BLACK_IS_ZERO: u64 = 1;
+    pub const PALETTE: u64 = 3;
+    pub const MASK: u64 = 4;
 }
 
 impl Image {
@@ -148,48 +38,44 @@ impl Image {
         directory: &Directory,
         name: &str,
         length: usize,
+        notes: &mut Vec<String>,
     ) -> Result<Self, MapError> {
-        let damaged = |reason: String| {
-            MapError::new(
-                name,
-                format!("the TIFF cannot be used: {reason}"),
-                "download or write the file again",
-            )
-        };
-        let unfit = |reason: String, remedy: &str| Err(MapError::new(name, reason, remedy));
+        let damaged = |reason: String| unusable(name, &reason);
+        let unfit = |reason: String, remedy: String| Err(MapError::new(name, reason, remedy));
         let one = |tag, default| tiff.one(directory, tag, default).map_err(damaged);
 
         let (columns, rows) = (one(tag::WIDTH, 0)?, one(tag::LENGTH, 0)?);
-        check_size(name, columns, rows)?;
+        check_sides(name, columns, rows)?;
         let bands = one(tag::SAMPLES_PER_PIXEL, 1)?;
         if bands != 1 {
             return unfit(
                 format!("it has {bands} bands, and heights have one"),
-                "take one band out, for example with gdal_translate -b 1 IN OUT.tif",
+                format!("take one band out: {}", gdal("gdal_translate -b 1", name)),
             );
         }
-        match tiff.unsigned(directory, tag::PHOTOMETRIC).map_err(damaged)?.as_deref() {
-            Some([1]) => {}
-            Some([0]) => {
+        let shows = tiff.unsigned(directory, tag::PHOTOMETRIC).map_err(damaged)?;
+        match shows.as_deref() {
+            Some([photometric::BLACK_IS_ZERO | photometric::MASK]) => {}
+            Some([photometric::WHITE_IS_ZERO]) => notes.push(
+                "the file says that its samples are inverted (white is zero), which heights are \
+                 not: they are read as stored"
+                    .to_owned(),
+            ),
+            None => notes.push(
+                "the file does not say what its samples show (tag 262): they are taken for heights"
+                    .to_owned(),
+            ),
+            Some(other) => {
+                let what = if *other == [photometric::PALETTE] {
+                    "a palette image, whose values are places in a list of colours"
+                } else {
+                    "a colour image"
+                };
                 return unfit(
-                    "its samples are inverted (white is zero)".to_owned(),
-                    "rewrite it with gdal_translate -co PHOTOMETRIC=MINISBLACK IN OUT.tif",
+                    format!("it is {what}"),
+                    "give the elevation model itself, not a picture of it".to_owned(),
                 );
             }
-            Some([3]) => {
-                return unfit(
-                    "it is a palette image, whose values are places in a list of colours"
-                        .to_owned(),
-                    "give the elevation model itself, not a picture of it",
-                );
-            }
-            Some(_) => {
-                return unfit(
-                    "it is a colour image".to_owned(),
-                    "give the elevation model itself, not a picture of it",
-                );
-            }
-            None => return Err(damaged("it does not say how samples are meant (tag 262)".into())),
         }
         let (format, bits) = (one(tag::SAMPLE_FORMAT, 1)?, one(tag::BITS_PER_SAMPLE, 1)?);
         let Some(sample) = Sample::of(format, bits) else {
@@ -202,17 +88,23 @@ impl Image {
             };
             return unfit(
                 format!("its samples are {kind} of {bits} bits"),
-                "rewrite it as one of int8 to int32, uint8 to uint32, float32 and float64, for \
-                 example with gdal_translate -ot Float32 IN OUT.tif",
+                format!(
+                    "write them as 32-bit floats: {}",
+                    gdal("gdal_translate -ot Float32", name)
+                ),
             );
         };
         let number = one(tag::COMPRESSION, 1)?;
-        let compression = match Compression::of(number) {
+        let lerc = tiff.unsigned(directory, tag::LERC_PARAMETERS).map_err(damaged)?;
+        let compression = match Compression::of(number, &lerc.unwrap_or_default()) {
             Ok(compression) => compression,
             Err(method) => {
                 return unfit(
                     format!("it is compressed by {method} (number {number})"),
-                    "rewrite it with gdal_translate -co COMPRESS=DEFLATE IN OUT.tif",
+                    format!(
+                        "pack it by deflate: {}",
+                        gdal("gdal_translate -co COMPRESS=DEFLATE", name)
+                    ),
                 );
             }
         };
@@ -234,11 +126,11 @@ impl Image {
             big_endian: tiff.big_endian,
             compression,
             predictor,
-            tiled: tiff.count(directory, tag::TILE_OFFSETS) > 0,
+            tiled: tiff.count(directory, tag::TILE_WIDTH) > 0,
             block: (0, 0),
             blocks: Vec::new(),
         };
-        image.read_blocks(tiff, directory, length as u64).map_err(damaged)?;
+        image.read_blocks(tiff, directory, length as u64, notes).map_err(damaged)?;
         Ok(image)
     }
 
@@ -248,60 +140,100 @@ impl Image {
         tiff: &Tiff<'_>,
         directory: &Directory,
         length: u64,
+        notes: &mut Vec<String>,
     ) -> Result<(), String> {
         let (columns, rows) = (self.columns as u64, self.rows as u64);
-        let (offsets, counts, width, height) = if self.tiled {
+        let (width, height) = if self.tiled {
             let side = |tag| -> Result<u64, String> {
                 let side = tiff.one(directory, tag, 0)?;
-                if side == 0 || side > u64::from(MAX_SIDE) {
+                if side == 0 || side > LARGEST_TILE {
                     return Err(format!("it claims tiles with a side of {side} pixels"));
                 }
                 Ok(side)
             };
-            (
-                tag::TILE_OFFSETS,
-                tag::TILE_BYTE_COUNTS,
-                side(tag::TILE_WIDTH)?,
-                side(tag::TILE_LENGTH)?,
-            )
+            (side(tag::TILE_WIDTH)?, side(tag::TILE_LENGTH)?)
         } else {
             let height = tiff.one(directory, tag::ROWS_PER_STRIP, rows)?;
-            if height == 0 {
-                return Err("it claims strips without rows".to_owned());
-            }
-            (tag::STRIP_OFFSETS, tag::STRIP_BYTE_COUNTS, columns, height.min(rows))
+            // Some writers mean "all rows" by 0.
+            (columns, if height == 0 { rows } else { height.min(rows) })
         };
         self.block = (width as usize, height as usize);
-        let blocks = columns.div_ceil(width) * rows.div_ceil(height);
-        // The lists are read only when they are as long as they must be.
-        for tag in [offsets, counts] {
+        let count = columns.div_ceil(width) * rows.div_ceil(height);
+        // Tiles may stand under the tags of strips, and the other way round.
+        let list = |tags: [u16; 2]| -> Result<Option<Vec<u64>>, String> {
+            let tag = tags.into_iter().find(|&tag| tiff.count(directory, tag) > 0);
+            let Some(tag) = tag else { return Ok(None) };
             let found = tiff.count(directory, tag);
-            if found != blocks {
-                return Err(format!("{blocks} strips or tiles need as many offsets, not {found}"));
+            if found < count {
+                return Err(format!("{count} strips or tiles need as many offsets, not {found}"));
             }
-        }
-        let list = |tag| -> Result<Vec<u64>, String> {
-            tiff.unsigned(directory, tag)?.ok_or_else(|| format!("tag {tag} is missing"))
+            // Entries beyond the last block mean nothing; a longer list is not read.
+            tiff.first_unsigned(directory, tag, count)
         };
-        let (offsets, counts) = (list(offsets)?, list(counts)?);
+        let (strips, tiles) = (
+            (tag::STRIP_OFFSETS, tag::STRIP_BYTE_COUNTS),
+            (tag::TILE_OFFSETS, tag::TILE_BYTE_COUNTS),
+        );
+        let (own, other) = if self.tiled { (tiles, strips) } else { (strips, tiles) };
+        let offsets = list([own.0, other.0])?.ok_or("it does not say where its samples are")?;
+        let counts = list([own.1, other.1])?;
+        // Lengths of nothing but 0 beside offsets are no lengths.
+        let counts = counts
+            .filter(|counts| offsets.iter().zip(counts).any(|(&at, &bytes)| at != 0 && bytes != 0));
+        if counts.is_none() && offsets.iter().any(|&at| at != 0) {
+            notes.push(
+                "the file does not say how long its strips or tiles are: each goes on as far as it \
+                 can"
+                    .to_owned(),
+            );
+        }
+        let mut sorted = Vec::new();
+        if counts.is_none() {
+            sorted.clone_from(&offsets);
+            sorted.sort_unstable();
+        }
+        // Bytes from an offset to the next block, or to the end of the file.
+        let up_to_next = |at: u64| {
+            let next = sorted.get(sorted.partition_point(|&other| other <= at));
+            next.copied().unwrap_or(length).min(length).saturating_sub(at)
+        };
         self.blocks.reserve_exact(offsets.len());
-        for (index, (&at, &bytes)) in offsets.iter().zip(&counts).enumerate() {
-            // GDAL leaves out tiles without data: offset 0, no bytes.
-            if at == 0 || bytes == 0 {
+        for (index, &at) in offsets.iter().enumerate() {
+            // GDAL leaves out blocks without data: offset 0, no bytes.
+            let stated = counts.as_ref().map(|counts| counts[index]);
+            if at == 0 || stated == Some(0) {
                 self.blocks.push(None);
                 continue;
             }
-            if at.checked_add(bytes).is_none_or(|end| end > length) {
+            let first_row = index as u64 / columns.div_ceil(width) * height;
+            let stored_rows = if self.tiled { height } else { height.min(rows - first_row) };
+            let row_bytes = self.sample.row_bytes(self.block.0) as u64;
+            let claimed = row_bytes * stored_rows;
+            // A last tile may end with the last row.
+            let least = row_bytes * height.min(rows - first_row);
+            let bytes = match (self.compression, stated) {
+                // What is stored as it is is as long as it must be, whatever the file says.
+                (Compression::None, _) => claimed.min(length.saturating_sub(at)).max(least),
+                (_, Some(bytes)) => bytes,
+                (_, None) => up_to_next(at),
+            };
+            let last = index + 1 == offsets.len();
+            let there = length.saturating_sub(at);
+            let bytes = match self.compression {
+                Compression::None => bytes,
+                // A last strip that claims more than there is may still be whole.
+                _ if last => bytes.min(there),
+                _ => bytes,
+            };
+            if bytes > there || bytes == 0 {
                 return Err(format!(
                     "it is cut short: strip or tile {index} lies at {at}, {bytes} bytes long, in a \
                      file of {length}"
                 ));
             }
-            let first_row = index as u64 / columns.div_ceil(width) * height;
-            let claimed = width * height.min(rows - first_row) * self.sample.bytes() as u64;
-            if claimed > bytes.saturating_mul(self.compression.ratio()) {
+            if least > bytes.saturating_mul(self.compression.ratio()) {
                 return Err(format!(
-                    "strip or tile {index} is {bytes} bytes long, which cannot hold the {claimed} \
+                    "strip or tile {index} is {bytes} bytes long, which cannot hold the {least} \
                      bytes it stands for"
                 ));
             }
@@ -333,4 +265,19 @@ impl Image {
             format!("strips of {height} rows")
         }
     }
+}
+
+/// A tile has at most this many pixels a side.
+const LARGEST_TILE: u64 = 16384;
+
+/// The message for a TIFF file that this program cannot read. Others may be able to.
+pub(super) fn unusable(name: &str, reason: &str) -> MapError {
+    MapError::new(
+        name,
+        format!("the TIFF cannot be used: {reason}"),
+        format!(
+            "where other programs read it, let one write it anew: {}",
+            gdal("gdal_translate", name)
+        ),
+    )
 }

@@ -2,147 +2,182 @@
 
 use std::io::Read;
 
-use super::image::{Image, Sample};
-use super::unpack;
+use rayon::prelude::*;
 
-/// Decodes all samples, row 0 north; nodes with the value `nodata` become NaN.
+use super::super::marks::Conversion;
+use super::compression::Compression;
+use super::image::Image;
+use super::unpack;
+use super::{lerc, predictor};
+
+/// Decodes all samples that are kept, every n-th of every n-th row from the north-west; samples of
+/// blocks that are not stored are `absent`. Notes say what is lost.
 pub(super) fn read(
     bytes: &[u8],
     image: &Image,
-    nodata: Option<f64>,
-    south_up: bool,
+    every: usize,
+    conversion: &Conversion,
+    absent: f64,
     notes: &mut Vec<String>,
 ) -> Result<Vec<f32>, String> {
-    let (columns, rows) = (image.columns, image.rows);
-    let (block_columns, block_rows) = image.block;
-    // Blocks that are not stored hold the no-data value, or 0 where none is declared.
-    let absent = if nodata.is_some() { f32::NAN } else { 0.0 };
-    let mut samples = vec![absent; columns * rows];
-    let width = image.sample.bytes();
-    let mut raw = vec![0; block_columns * width];
-    let mut unshuffled = Vec::new();
-    let mut rounded = false;
-    let mut missing = 0;
-    let across = columns.div_ceil(block_columns);
-    for (index, block) in image.blocks.iter().enumerate() {
-        let Some(range) = block else {
-            missing += 1;
-            continue;
-        };
-        let packed = bytes.get(range.clone()).ok_or("a strip or tile lies outside the file")?;
-        let mut stream = unpack::stream(packed, image.compression);
-        let (column, row) = (index % across * block_columns, index / across * block_rows);
-        let used = block_columns.min(columns - column);
-        for line in row..rows.min(row + block_rows) {
-            stream
-                .read_exact(&mut raw)
-                .map_err(|error| format!("strip or tile {index} cannot be unpacked: {error}"))?;
-            // What predictor 3 leaves is big-endian whatever the file's order.
-            let big_endian = match image.predictor {
-                2 => {
-                    undo_differences(&mut raw, width, image.big_endian);
-                    image.big_endian
-                }
-                3 => {
-                    unshuffle(&mut raw, width, &mut unshuffled);
-                    true
-                }
-                _ => image.big_endian,
-            };
-            let to = &mut samples[line * columns + column..][..used];
-            let row = Row { raw: &raw, big_endian, nodata };
-            rounded |= row.convert(image.sample, to);
-        }
-    }
-    if south_up {
-        for row in 0..rows / 2 {
-            let (north, south) = samples.split_at_mut((rows - 1 - row) * columns);
-            north[row * columns..(row + 1) * columns].swap_with_slice(&mut south[..columns]);
-        }
-    }
+    let mut heights = vec![0.0; image.columns.div_ceil(every) * image.rows.div_ceil(every)];
+    let rounded = each(bytes, image, every, absent, &mut heights, |height, sample| {
+        let rounded;
+        (*height, rounded) = conversion.height(sample);
+        rounded
+    })?;
+    let missing = image.blocks.iter().filter(|block| block.is_none()).count();
     if missing > 0 {
-        let value = if nodata.is_some() { "nodes without data" } else { "height 0" };
+        let value = if absent.is_nan() {
+            "nodes without data".to_owned()
+        } else {
+            format!("height {}", conversion.height(absent).0)
+        };
         notes.push(format!("{missing} strips or tiles are not stored: {value}"));
     }
     if rounded {
         notes.push("heights were rounded to 32-bit floats, which hold 7 digits".to_owned());
     }
-    Ok(samples)
+    Ok(heights)
 }
 
-/// Predictor 2: every sample is the difference to the one before, as integers that wrap.
-fn undo_differences(raw: &mut [u8], width: usize, big_endian: bool) {
-    for at in (width..raw.len()).step_by(width) {
-        // Byte by byte from the lowest, with a carry.
-        let mut carry = false;
-        for place in 0..width {
-            let byte = at + if big_endian { width - 1 - place } else { place };
-            let (sum, over) = raw[byte].overflowing_add(raw[byte - width]);
-            let (sum, over_again) = sum.overflowing_add(u8::from(carry));
-            raw[byte] = sum;
-            carry = over || over_again;
+/// Makes all heights nodes without data where a mask of the same size is 0.
+pub(super) fn mask(
+    bytes: &[u8],
+    mask: &Image,
+    every: usize,
+    heights: &mut [f32],
+) -> Result<(), String> {
+    each(bytes, mask, every, 0.0, heights, |height, seen| {
+        if seen == 0.0 {
+            *height = f32::NAN;
         }
-    }
+        false
+    })
+    .map(|_| ())
 }
 
-/// Predictor 3: bytes are differences, and the row holds the highest bytes of all samples, then the
-/// next ones, and so on.
-fn unshuffle(raw: &mut [u8], width: usize, row: &mut Vec<u8>) {
-    for at in 1..raw.len() {
-        raw[at] = raw[at].wrapping_add(raw[at - 1]);
+/// Hands every sample that is kept to `put`, with the height of its node; true if `put` ever is.
+///
+/// Rows of blocks are decoded side by side: each has its own part of the heights.
+fn each(
+    bytes: &[u8],
+    image: &Image,
+    every: usize,
+    absent: f64,
+    heights: &mut [f32],
+    put: impl Fn(&mut f32, f64) -> bool + Sync,
+) -> Result<bool, String> {
+    let kept_columns = image.columns.div_ceil(every);
+    let mut bands = Vec::new();
+    let mut rest = heights;
+    for first in (0..image.rows).step_by(image.block.1) {
+        let end = image.rows.min(first + image.block.1);
+        let kept = end.div_ceil(every) - first.div_ceil(every);
+        let (part, after) = rest.split_at_mut(kept * kept_columns);
+        bands.push((bands.len(), part));
+        rest = after;
     }
-    row.clear();
-    row.extend_from_slice(raw);
-    let count = raw.len() / width;
-    for (index, sample) in raw.chunks_exact_mut(width).enumerate() {
-        for (place, byte) in sample.iter_mut().enumerate() {
-            *byte = row[place * count + index];
-        }
-    }
-}
-
-/// A row of samples as bytes.
-struct Row<'a> {
-    raw: &'a [u8],
-    big_endian: bool,
-    nodata: Option<f64>,
-}
-
-impl Row<'_> {
-    /// Converts as many samples as there is room for; true if one had to be rounded.
-    fn convert(mut self, sample: Sample, to: &mut [f32]) -> bool {
-        match sample {
-            Sample::U8 => self.each(to, |[byte]| f64::from(byte)),
-            Sample::I8 => self.each(to, |bytes| f64::from(i8::from_le_bytes(bytes))),
-            Sample::U16 => self.each(to, |bytes| f64::from(u16::from_le_bytes(bytes))),
-            Sample::I16 => self.each(to, |bytes| f64::from(i16::from_le_bytes(bytes))),
-            Sample::U32 => self.each(to, |bytes| f64::from(u32::from_le_bytes(bytes))),
-            Sample::I32 => self.each(to, |bytes| f64::from(i32::from_le_bytes(bytes))),
-            Sample::F32 => {
-                // The mark is written in decimal digits: in 32 bits it is what they round to.
-                self.nodata = self.nodata.map(|mark| f64::from(mark as f32));
-                self.each(to, |bytes| f64::from(f32::from_le_bytes(bytes)))
-            }
-            Sample::F64 => self.each(to, f64::from_le_bytes),
-        }
-    }
-
-    fn each<const N: usize>(&self, to: &mut [f32], value: impl Fn([u8; N]) -> f64) -> bool {
-        let mut rounded = false;
-        let (samples, _) = self.raw.as_chunks::<N>();
-        for (to, &bytes) in to.iter_mut().zip(samples) {
-            let mut bytes = bytes;
-            if self.big_endian {
-                bytes.reverse();
-            }
-            let value = value(bytes);
-            if self.nodata == Some(value) {
-                *to = f32::NAN;
-            } else {
-                *to = value as f32;
-                rounded |= value.is_finite() && f64::from(*to) != value;
+    let across = image.columns.div_ceil(image.block.0);
+    let band = |(band, heights): (usize, &mut [f32])| -> Result<bool, String> {
+        let mut any = false;
+        for at in 0..across {
+            let (index, column) = (band * across + at, at * image.block.0);
+            let (west, used) = (column.div_ceil(every), image.block.0.min(image.columns - column));
+            let east = (column + used).div_ceil(every);
+            let first = band * image.block.1;
+            let mut decoder = Decoder::new(bytes, image, index, absent)?;
+            for line in first..image.rows.min(first + image.block.1) {
+                // Rows that are not kept are unpacked for those behind them.
+                let kept = if line % every == 0 {
+                    let row = line / every - first.div_ceil(every);
+                    &mut heights[row * kept_columns..][west..east]
+                } else {
+                    &mut []
+                };
+                let mut to = kept.iter_mut();
+                // Samples before the first one that is kept.
+                let mut wait = west * every - column;
+                decoder.row(|sample| {
+                    if wait > 0 {
+                        wait -= 1;
+                    } else if let Some(height) = to.next() {
+                        any |= put(height, sample);
+                        wait = every - 1;
+                    }
+                })?;
             }
         }
-        rounded
+        Ok(any)
+    };
+    bands.into_par_iter().map(band).try_reduce(|| false, |a, b| Ok(a || b))
+}
+
+/// A strip or tile that hands out its rows.
+enum Decoder<'a> {
+    /// Not stored: so many samples a row.
+    Absent(usize, f64),
+    Stream(Stream<'a>),
+    Lerc(lerc::Rows),
+}
+
+struct Stream<'a> {
+    image: &'a Image,
+    index: usize,
+    from: Box<dyn Read + 'a>,
+    raw: Vec<u8>,
+    spare: Vec<u8>,
+}
+
+impl<'a> Decoder<'a> {
+    fn new(bytes: &'a [u8], image: &'a Image, index: usize, absent: f64) -> Result<Self, String> {
+        let Some(range) = image.blocks[index].clone() else {
+            return Ok(Self::Absent(image.block.0, absent));
+        };
+        let packed = bytes.get(range).ok_or("a strip or tile lies outside the file")?;
+        let broken = |error: String| format!("strip or tile {index} cannot be unpacked: {error}");
+        if let Compression::Lerc(on_top) = image.compression {
+            return lerc::Rows::decode(packed, on_top, image.block).map(Self::Lerc).map_err(broken);
+        }
+        Ok(Self::Stream(Stream {
+            image,
+            index,
+            from: unpack::stream(packed, image.compression).map_err(broken)?,
+            raw: vec![0; image.sample.row_bytes(image.block.0)],
+            spare: Vec::new(),
+        }))
+    }
+
+    /// Hands out the samples of the next row.
+    fn row(&mut self, put: impl FnMut(f64)) -> Result<(), String> {
+        match self {
+            Self::Absent(columns, sample) => (0..*columns).map(|_| *sample).for_each(put),
+            Self::Stream(stream) => stream.row(put)?,
+            Self::Lerc(rows) => rows.next(put)?,
+        }
+        Ok(())
+    }
+}
+
+impl Stream<'_> {
+    fn row(&mut self, put: impl FnMut(f64)) -> Result<(), String> {
+        let Self { image, index, from, raw, spare } = self;
+        from.read_exact(raw)
+            .map_err(|error| format!("strip or tile {index} cannot be unpacked: {error}"))?;
+        let width = image.sample.bits() / 8;
+        // What predictor 3 leaves is big-endian whatever the file's order.
+        let big_endian = match image.predictor {
+            2 if width > 0 => {
+                predictor::undo_differences(raw, width, image.big_endian);
+                image.big_endian
+            }
+            3 => {
+                predictor::unshuffle(raw, width, spare);
+                true
+            }
+            _ => image.big_endian,
+        };
+        image.sample.each(raw, big_endian, put);
+        Ok(())
     }
 }

@@ -4,21 +4,32 @@
 use std::io::{self, BufReader, Read};
 
 use flate2::read::ZlibDecoder;
+use ruzstd::decoding::StreamingDecoder;
 use weezl::{BitOrder, LzwStatus, decode};
 
-use super::image::Compression;
+use super::compression::Compression;
 
-/// The unpacked bytes of a block.
-pub(super) fn stream(packed: &[u8], compression: Compression) -> Box<dyn Read + '_> {
-    match compression {
-        Compression::None => Box::new(packed),
+/// Zstandard keeps so many unpacked bytes at most: GDAL's writers stay far below.
+const ZSTANDARD_WINDOW: u64 = 128 << 20;
+
+/// The unpacked bytes of a block, of LERC the block itself.
+pub(super) fn stream(
+    packed: &[u8],
+    compression: Compression,
+) -> Result<Box<dyn Read + '_>, String> {
+    Ok(match compression {
+        Compression::None | Compression::Lerc(_) => Box::new(packed),
+        Compression::Zstandard => Box::new(
+            StreamingDecoder::new_with_max_window_size(packed, ZSTANDARD_WINDOW)
+                .map_err(|error| error.to_string())?,
+        ),
         Compression::Deflate => Box::new(ZlibDecoder::new(packed)),
         Compression::Lzw => Box::new(BufReader::new(Lzw {
             packed,
             decoder: decode::Configuration::with_tiff_size_switch(BitOrder::Msb, 8).build(),
         })),
         Compression::PackBits => Box::new(BufReader::new(PackBits { packed, run: Run::Done })),
-    }
+    })
 }
 
 struct Lzw<'a> {
@@ -106,7 +117,7 @@ mod tests {
             0xAA,
         ];
         let mut unpacked = Vec::new();
-        stream(&packed, Compression::PackBits).read_to_end(&mut unpacked).unwrap();
+        stream(&packed, Compression::PackBits).unwrap().read_to_end(&mut unpacked).unwrap();
         let mut expected = vec![0xAA, 0xAA, 0xAA, 0x80, 0x00, 0x2A, 0xAA, 0xAA, 0xAA, 0xAA];
         expected.extend([0x80, 0x00, 0x2A, 0x22]);
         expected.extend([0xAA; 10]);
@@ -122,7 +133,7 @@ mod tests {
             // The code for the end takes one or two bytes.
             for packed in [&packed[..], &packed[..packed.len() - 1]] {
                 let mut unpacked = vec![0; plain.len()];
-                let mut stream = stream(packed, Compression::Lzw);
+                let mut stream = stream(packed, Compression::Lzw).unwrap();
                 for part in unpacked.chunks_mut(portion) {
                     stream.read_exact(part).unwrap();
                 }

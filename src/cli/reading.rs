@@ -1,0 +1,86 @@
+//! Options that settle what a height file leaves open.
+
+use clap::Args;
+
+use super::Stop;
+use crate::scene::height_map::{CoordinateUnit, length};
+use crate::scene::{Encoding, Interpretation, quote};
+
+/// What a user says of a height file. It counts more than what the file says.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Height files")]
+pub struct Reading {
+    /// What the file's coordinates count: `m`, `ft`, `us-ft`, `deg`, another unit of length, or the
+    /// metres of one.
+    #[arg(long, value_name = "UNIT", value_parser = CoordinateUnit::parse)]
+    pub unit: Option<CoordinateUnit>,
+
+    /// What its heights count: `m`, `ft`, `us-ft`, another unit of length, or the metres of one.
+    #[arg(long, value_name = "UNIT", value_parser = length)]
+    pub height_unit: Option<f64>,
+
+    /// The stored sample that marks nodes without data, beside what the file declares.
+    #[arg(long, value_name = "SAMPLE", allow_negative_numbers = true)]
+    pub nodata: Option<f64>,
+
+    /// What the colours of a PNG stand for: `terrain-rgb` or `terrarium` for packed heights.
+    #[arg(long, value_name = "ENCODING", value_parser = encoding)]
+    pub encoding: Option<Encoding>,
+}
+
+fn encoding(text: &str) -> Result<Encoding, String> {
+    let known = Encoding::NAMES.iter().find(|(name, _)| *name == text);
+    known.map(|(_, encoding)| *encoding).ok_or_else(|| {
+        let names = Encoding::NAMES.map(|(name, _)| name);
+        format!("give one of {}", names.join(", "))
+    })
+}
+
+impl Reading {
+    /// For a file that is read without a scene.
+    pub fn interpretation(&self) -> Interpretation {
+        Interpretation {
+            encoding: self.encoding.unwrap_or_default(),
+            nodata: self.nodata,
+            unit: self.unit,
+            height_unit_m: self.height_unit,
+            ..Interpretation::default()
+        }
+    }
+
+    /// The options that are keys of a scene, as `--set` takes them.
+    pub fn sets(&self) -> Vec<String> {
+        let encoding = self.encoding.map(|found| format!("surface.encoding={}", found.name()));
+        let nodata = self.nodata.map(|sample| format!("surface.nodata_value={sample:?}"));
+        encoding.into_iter().chain(nodata).collect()
+    }
+
+    /// The first option that only height files take.
+    pub fn of_files_alone(&self) -> Option<&'static str> {
+        let unit = self.unit.map(|_| "--unit");
+        unit.or(self.height_unit.map(|_| "--height-unit"))
+    }
+
+    /// The options again, as words of a command line.
+    pub fn words(&self) -> Vec<String> {
+        let unit = self.unit.map(|unit| match unit {
+            CoordinateUnit::Degrees => "--unit deg".to_owned(),
+            CoordinateUnit::Length(metres) => format!("--unit {metres:?}"),
+        });
+        let height = self.height_unit.map(|metres| format!("--height-unit {metres:?}"));
+        let nodata = self.nodata.map(|sample| format!("--nodata {sample:?}"));
+        let encoding = self.encoding.map(|found| format!("--encoding {}", found.name()));
+        [unit, height, nodata, encoding].into_iter().flatten().collect()
+    }
+
+    /// Refuses options that only height files take, for a scene that is none.
+    pub fn refuse(&self, scene: &str) -> Result<(), Stop> {
+        self.of_files_alone().map_or(Ok(()), |option| {
+            Err(Stop::BadInput(format!(
+                "{option}: {} is no height file; a scene says what its map counts by surface.cell, \
+                 surface.height and unit_m",
+                quote(scene)
+            )))
+        })
+    }
+}

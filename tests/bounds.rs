@@ -1,6 +1,9 @@
 //! Derived error bounds and measured errors of registers: no measurement is above its bound.
 
+mod scenes;
 mod support;
+#[path = "bounds/weights.rs"]
+mod weights;
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;

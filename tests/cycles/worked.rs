@@ -7,8 +7,17 @@ use super::{chain_and_work, recurrence, stepper_work};
 
 const PAGE: &str = include_str!("../../docs/cycles.md");
 
-/// Rows of the page's table of examples: the scene with its overrides, then numbers.
-fn examples() -> Vec<(&'static str, Vec<&'static str>, Vec<Option<u32>>)> {
+/// A row of the page's table.
+struct Example {
+    name: &'static str,
+    /// Its overrides.
+    sets: Vec<&'static str>,
+    /// What stands in the other columns.
+    numbers: Vec<Option<u32>>,
+}
+
+/// All of them.
+fn examples() -> Vec<Example> {
     let section = PAGE.split("## Worked examples").nth(1).expect("the section");
     let section = section.split("\n## ").next().expect("its text");
     let rows = section.lines().filter(|line| line.starts_with('|')).skip(2);
@@ -18,7 +27,7 @@ fn examples() -> Vec<(&'static str, Vec<&'static str>, Vec<Option<u32>>)> {
         let name = scene.next().expect("a name");
         let number =
             |cell: &str| if cell == "none" { None } else { Some(cell.parse().expect(cell)) };
-        (name, scene.collect(), cells.map(number).collect())
+        Example { name, sets: scene.collect(), numbers: cells.map(number).collect() }
     })
     .collect()
 }
@@ -27,7 +36,7 @@ fn examples() -> Vec<(&'static str, Vec<&'static str>, Vec<Option<u32>>)> {
 fn the_clock_adds_up_as_the_page_does() {
     let examples = examples();
     assert!(examples.len() >= 6);
-    for (name, sets, numbers) in examples {
+    for Example { name, sets, numbers } in examples {
         let sets = [&["screen.size=[8, 8]"], &sets[..]].concat();
         let (chain, _) = chain_and_work(name, &sets);
         let [bits, reads, memory] = [0, 1, 2].map(|at: usize| numbers[at]);

@@ -5,7 +5,7 @@
 use glam::DVec3;
 
 use crate::frame::{Buffers, Frame, Giver, Hit, Pixel};
-use crate::plan::{Plan, SurfacePlan};
+use crate::plan::{Plan, SurfacePlan, TerrainPlan};
 use crate::unit::Line;
 use crate::word::{Open, Readout};
 
@@ -50,7 +50,11 @@ impl<'a> Reader<'a> {
             // The point's height is that of the rim above the place on the side.
             (away.y, along.y) = (0.0, 0.0);
         }
-        let lambda = away.dot(along) / along.length_squared();
+        let by_point = away.dot(along) / along.length_squared();
+        let lambda = match &self.plan.surfaces[line.owner[i] as usize] {
+            SurfacePlan::Terrain(walk) => along_the_ray(walk, line, i, view, by_point),
+            SurfacePlan::Plane(_) => by_point,
+        };
         Some(Pixel {
             lambda,
             ground_x: point.x,
@@ -78,4 +82,32 @@ impl<'a> Reader<'a> {
             self.read(line, Giver::Processor, buffers);
         }
     }
+}
+
+/// λ of a hit on a height map (equation 37): that of its point where it lies in the ray's step under
+/// the surface. On steep ground the height of the surface says little of the ray: there λ follows
+/// from the place alone, and failing that is the middle of the step.
+fn along_the_ray<W: Open>(
+    walk: &TerrainPlan,
+    line: &Line<W>,
+    i: usize,
+    view: DVec3,
+    by_point: f64,
+) -> f64 {
+    let view = (view / walk.lengths).to_array();
+    let words = [line.view_x[i].value(), line.view_y[i].value(), line.view_z[i].value()];
+    let places = [line.ground_x[i].value(), walk.top, line.ground_z[i].value()];
+    let starts = [line.entry_x[i].value(), walk.top, line.entry_z[i].value()];
+    let along = |places: [f64; 3], axis: usize| (places[axis] - walk.eye[axis]) / view[axis];
+    let longer = |a: usize, b: usize| if words[b].abs() > words[a].abs() { b } else { a };
+    let level = longer(0, 2);
+    let longest = longer(level, 1);
+    let start = if walk.from_eye { 0.0 } else { along(starts, longest) };
+    // The view register shifted so that this component is below 2^-k (equation 20).
+    let (part, _) = libm::frexp(words[longest].abs());
+    let step = libm::scalbn(part, -(walk.fineness as i32)) / view[longest].abs();
+    let middle = start + (f64::from(line.steps[i]) - 0.5) * step;
+    // Half a step on either side is for roundings.
+    let is_near = |lambda: &f64| *lambda > 0.0 && (lambda - middle).abs() < step;
+    [by_point, along(places, level)].into_iter().find(is_near).unwrap_or(middle)
 }

@@ -5,6 +5,8 @@ mod support;
 
 #[path = "accuracy/exact.rs"]
 mod exact;
+#[path = "accuracy/steep.rs"]
+mod steep;
 
 use glam::{DVec2, DVec3};
 use support::recipe::{Eye, recipes};

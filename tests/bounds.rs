@@ -1,6 +1,13 @@
 //! Derived error bounds and measured errors of registers: no measurement is above its bound.
 
+#[path = "bounds/directions.rs"]
+mod directions;
+mod scenes;
 mod support;
+#[path = "bounds/walks.rs"]
+mod walks;
+#[path = "bounds/weights.rs"]
+mod weights;
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;

@@ -2,6 +2,8 @@
 //! counted by hand.
 
 mod support;
+#[path = "cycles/worked.rs"]
+mod worked;
 
 use support::count;
 use terraline::clock::{Chain, Clock, Taker};

@@ -3,6 +3,8 @@
 
 mod support;
 
+#[path = "engines/straight.rs"]
+mod straight;
 #[path = "engines/sweeps.rs"]
 mod sweeps;
 

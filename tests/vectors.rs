@@ -133,12 +133,13 @@ fn a_map_without_surface_has_vectors_without_places() {
 #[test]
 fn coarse_registers_have_vectors_in_their_own_widths() {
     for formats in [
-        &["format.ground={ width = 24, point = 12, rounding = \"floor\", overflow = \"wrap\" }"][..],
+        &["format.ground={ width = 24, point = 12, rounding = \"nearest\", overflow = \"wrap\" }"]
+            [..],
         &[
             "format.ground={ width = 23, point = 11, rounding = \"nearest\", overflow = \"saturate\" }",
         ],
         &[
-            "format.view={ width = 21, point = 19, rounding = \"toward_zero\", overflow = \"wrap\" }",
+            "format.view={ width = 21, point = 19, rounding = \"nearest\", overflow = \"wrap\" }",
             "format.weight={ width = 13, point = 9, rounding = \"floor\", overflow = \"wrap\" }",
             "format.tone={ width = 19, point = 7, rounding = \"nearest_even\", overflow = \"wrap\" }",
         ],

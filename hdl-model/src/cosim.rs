@@ -8,6 +8,15 @@ use terraline::word::Complete;
 
 use crate::rtl::{Rtl, STAGES, Words, port_name};
 
+/// Why there is no comparison.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// The RTL has no machine for this set-up, or the trace cannot be written: reason and remedy.
+    Refused(String),
+    /// The RTL did what it must never do: it reads beside its memories.
+    Wrong(String),
+}
+
 /// The first differences that are described.
 const DESCRIBED: usize = 8;
 
@@ -69,8 +78,8 @@ pub fn compare<W: Complete>(
     setup: &Setup<W>,
     taker: Taker,
     trace: Option<(&str, Window)>,
-) -> Result<Outcome, String> {
-    let rtl = Rtl::new(setup)?;
+) -> Result<Outcome, Fault> {
+    let rtl = Rtl::new(setup).map_err(Fault::Refused)?;
     compare_with(rtl, setup, taker, trace)
 }
 
@@ -83,7 +92,7 @@ pub fn compare_with<W: Complete>(
     setup: &Setup<W>,
     taker: Taker,
     trace: Option<(&str, Window)>,
-) -> Result<Outcome, String> {
+) -> Result<Outcome, Fault> {
     let chain = Chain::new(setup);
     let fitted: Vec<usize> = chain
         .stages
@@ -149,7 +158,7 @@ fn draw<W: Complete>(
     limit: u64,
     taker: Taker,
     trace: Option<(&str, Window)>,
-) -> Result<Run, String> {
+) -> Result<Run, Fault> {
     let mut run = Run {
         taken: vec![Vec::new(); STAGES.len()],
         passed: vec![Vec::new(); STAGES.len()],
@@ -157,7 +166,7 @@ fn draw<W: Complete>(
     };
     let window = trace.map(|(_, window)| window);
     if let Some((path, _)) = trace {
-        rtl.open_trace(path)?;
+        rtl.open_trace(path).map_err(Fault::Refused)?;
     }
     rtl.start();
     let frame = STAGES.len() - 1;
@@ -169,7 +178,7 @@ fn draw<W: Complete>(
             rtl.trace(begun >= window.first && done < window.end);
         }
         let passed = &mut run.passed;
-        let now = rtl.cycle(taker, |unit, words| passed[unit].push(words))?;
+        let now = rtl.cycle(taker, |unit, words| passed[unit].push(words)).map_err(Fault::Wrong)?;
         for unit in 0..STAGES.len() {
             if now.takes >> unit & 1 == 1 {
                 run.taken[unit].push(cycle);

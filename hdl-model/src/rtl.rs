@@ -338,8 +338,17 @@ fn read_nodes<W: Complete>(
     let bits = ports[1].width() / 4;
     let mut nodes = ([0; 4], 0);
     for bank in 0..4 {
-        let column = 2 * model.bits(ports[1], bank * bits, bits) as i32 + (bank & 1) as i32;
-        let row = 2 * model.bits(ports[2], bank * bits, bits) as i32 + (bank >> 1) as i32;
+        let half_column = model.bits(ports[1], bank * bits, bits) as i32;
+        let half_row = model.bits(ports[2], bank * bits, bits) as i32;
+        let (column, row) =
+            (2 * half_column + (bank & 1) as i32, 2 * half_row + (bank >> 1) as i32);
+        // On an axis of one node the bank of odd nodes is empty: address 0 is read and not used.
+        let empty = |size: i32, half: i32, odd: bool| size == 1 && half == 0 && odd;
+        if empty(heights.columns(), half_column, bank & 1 == 1)
+            || empty(heights.rows(), half_row, bank >> 1 == 1)
+        {
+            continue;
+        }
         if column >= heights.columns() || row >= heights.rows() {
             return Err(format!(
                 "the RTL reads node {column}, {row} of a map of {} x {}",

@@ -4,7 +4,7 @@
 use terraline::clock::Taker;
 use terraline::engine::{self, Memories, WithSetup};
 use terraline::plan::Plan;
-use terraline::scene;
+use terraline::scene::{self, Deformation, HeightMap, Outside};
 use terraline::setup::Back;
 use terraline::setup::Setup;
 use terraline::word::Complete;
@@ -85,6 +85,51 @@ fn other_machines_for_height_maps() {
             let sets: Vec<&str> = [&["screen.size=[40, 30]"], sets].concat();
             assert_equal(name, &sets, BUSY);
         }
+    }
+}
+
+#[test]
+fn maps_of_one_row_or_column() {
+    for (columns, rows) in [(1, 9), (9, 1), (1, 1), (2, 9), (9, 2)] {
+        let samples = (0..columns * rows).map(|at| (at * 3 % 5) as f32).collect();
+        for outside in [Outside::Sky, Outside::Clamp] {
+            for deformation in [Deformation::None, Deformation::Stretch] {
+                let sets = [
+                    "screen.size=[20, 15]",
+                    "camera.position=[-3, 4, -2]",
+                    "camera.forward=[1, -0.8, 0.9]",
+                ];
+                let mut scene =
+                    scene::load(Some("flight"), &sets.map(str::to_owned)).expect("a scene");
+                let terrain = scene.terrain_mut().expect("a height map");
+                terrain.map = HeightMap::new(columns, rows, Vec::clone(&samples)).into();
+                (terrain.offset, terrain.scale, terrain.outside) = (0.0, 0.5, outside);
+                scene.kernel.deformation = deformation;
+                let plan = Plan::new(&scene, None, false).expect("a plan");
+                let machine = engine::Machine::new(&scene, &plan, &Memories::default());
+                let machine = machine.expect("a set-up");
+                let outcome = machine.run(Cosimulation { taker: BUSY });
+                let what = format!("{columns} x {rows}, {outside:?}, {deformation:?}");
+                assert!(outcome.is_equal(), "{what}: {}", outcome.described.join("\n"));
+            }
+        }
+    }
+}
+
+#[test]
+fn fading_squares_show_every_rounding_of_the_contrast() {
+    // Squares of about a pixel on the whole screen, in colours far apart: the last bit of a contrast
+    // is 1e-4 levels, of which so many pixels have some at the edge of a level.
+    let colors = "color.checker=[[0, 1, 254], [255, 254, 3]]";
+    // With a roll every pixel has a contrast of its own.
+    let place = ["camera.position=[0, 90, 0]", "camera.pitch=-70", "camera.roll=17"];
+    let sets = [&["screen.size=[400, 300]", colors], &place[..]].concat();
+    for square in ["surface.checker=0.6", "surface.checker=0.8"] {
+        assert_equal(
+            "plane",
+            &[&sets[..], &[square, "machine.words=narrow"]].concat(),
+            Taker::Ready,
+        );
     }
 }
 

@@ -39,8 +39,9 @@ pub struct SceneArgs {
     screen: Option<String>,
 
     /// A register or class in a format of its own (sweep world), for example `ground=24.8` or
-    /// `ground_x=12.16:stochastic:saturate`: bits before and after the point, rounding, overflow
-    /// (as in stock registers, `nearest` and `wrap`, where they are left out).
+    /// `node=12.16:stochastic:saturate`: bits before and after the point, rounding, overflow
+    /// (as in stock registers, `nearest` and `wrap`, where they are left out). Places and views are
+    /// never rounded and take `nearest` alone.
     #[arg(long = "format", value_name = "NAME=I.F[:ROUNDING[:OVERFLOW]]")]
     format: Vec<String>,
 
@@ -224,7 +225,7 @@ pub fn parse_pixel(text: &str, plan: &Plan) -> Result<(u32, u32), Stop> {
 fn parse_format(text: &str) -> Result<(Registers, FormatRequest), Stop> {
     let bad = |reason: &str| {
         Stop::BadInput(format!(
-            "--format {text}: {reason}; for example ground=24.8 or ground=24.8:floor:saturate \
+            "--format {text}: {reason}; for example ground=24.8 or height=24.8:floor:saturate \
              (roundings: {}; overflows: {})",
             list(Rounding::ALL.map(Rounding::name)),
             list(Overflow::ALL.map(Overflow::name))

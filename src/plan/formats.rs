@@ -38,7 +38,8 @@ impl Formats<'_> {
     /// The sweep world of these formats.
     ///
     /// # Errors
-    /// If a format leaves a register fewer bits before the point than its datapath needs.
+    /// If a format leaves a register fewer bits before the point than its datapath needs, or asks for
+    /// a rounding where none takes place.
     pub fn sweep(&self, seed: u64) -> Result<Sweep, PlanError> {
         for (registers, request) in self.requests {
             check(*registers, request)?;
@@ -80,7 +81,7 @@ pub fn sweep(scene: &Scene, plan: &Plan) -> Result<Sweep, PlanError> {
     Ok(world)
 }
 
-/// Refuses formats that no datapath of the machine can work with.
+/// Refuses formats that no datapath of the machine can work with, and roundings that none acts by.
 fn check(registers: Registers, request: &FormatRequest) -> Result<(), PlanError> {
     let integer = i64::from(request.width) - i64::from(request.point);
     let class = match registers {
@@ -104,6 +105,20 @@ fn check(registers: Registers, request: &FormatRequest) -> Result<(), PlanError>
                 "{} bits with {} after the point leave {integer} before it, sign included; \
                  {name} needs at least {needed}: widen it or move the point",
                 request.width, request.point
+            ),
+        });
+    }
+    if request.rounding != Rounding::Nearest && !registers.are_rounded() {
+        let (name, rounding) = (registers.name(), request.rounding.name());
+        let why = match class {
+            Class::View => "coefficients of the view are loaded to nearest and added",
+            _ => "places on a ray are added; quotients and halvings are floored, steps go to nearest",
+        };
+        return Err(PlanError::Format {
+            name,
+            reason: format!(
+                "rounding {rounding} would act nowhere: {why}; leave the rounding out, or give it \
+                 to node, weight or normal, whose results are rounded"
             ),
         });
     }

@@ -3,7 +3,7 @@
 //! Sines, cosines and tangents come from `libm`, so that every platform loads the same
 //! coefficients.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use crate::scene::{Angles, Attitude, Camera, Screen};
 
@@ -85,6 +85,8 @@ pub struct Geometry {
     pub columns: u32,
     /// Scan lines.
     pub lines: u32,
+    /// Sides of a pixel on the screen, across and down, scene units.
+    pub pitch: DVec2,
     /// Smaller side of a pixel over the longest view vector: the smallest angle between
     /// neighbouring pixels, up to the obliquity of the screen.
     pub finest_angle: f64,
@@ -116,11 +118,31 @@ impl Geometry {
             view,
             columns: screen.columns,
             lines: screen.lines,
+            pitch,
             finest_angle: 0.0,
         };
         let longest = geometry.corners().map(DVec3::length).into_iter().fold(0.0, f64::max);
         geometry.finest_angle = pitch.min_element() / longest;
         geometry
+    }
+
+    /// Pixels by which a ray moves on the screen, at most, where its direction is off by up to
+    /// `errors` along the axes of the ground, in scene units beside the view vectors: to first order
+    /// (equation 36).
+    pub fn pixels_off(&self, errors: DVec3) -> f64 {
+        let [forward, up, right] = [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis];
+        // The length is the largest of convex functions of the screen, so largest at a corner.
+        let worst = |view: DVec3| {
+            let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
+            let moved = signs.map(|(y, z)| {
+                let error = errors * DVec3::new(1.0, y, z);
+                let ahead = error.dot(forward) / view.dot(forward);
+                let along = |axis: DVec3| error.dot(axis) - view.dot(axis) * ahead;
+                (DVec2::new(along(right), along(up)) / self.pitch).length()
+            });
+            moved.into_iter().fold(0.0, f64::max)
+        };
+        self.corners().map(worst).into_iter().fold(0.0, f64::max)
     }
 
     /// View vectors of the four corner pixels: components linear in the screen are extreme there.

@@ -87,7 +87,11 @@ impl Planned for PlanePlan {
             }
             refusals.push(refusal);
         }
-        refusals.extend(formats.view_refusals(geometry, &[R::ViewX, R::ViewZ, R::Denominator]));
+        refusals.extend(formats.view_refusals(
+            geometry,
+            &[R::ViewX, R::ViewZ, R::Denominator],
+            |drift| drift / geometry.finest_angle,
+        ));
         if self.numerator != 0.0 {
             let register = formats.coarsest(&ground);
             // The nearest point of the plane is |F| away: a pixel is at least so large there.

@@ -49,12 +49,13 @@ impl Proof {
         self.holds()
     }
 
-    /// The open claims of a sweep: its formats are coarse on purpose, its overflows counted.
+    /// The open claims of a sweep, and those that hold but not well: its formats are coarse on
+    /// purpose, its overflows counted.
     pub(super) fn not_proved(&self, formats: &Formats<'_>) -> Vec<String> {
         let told = |Refusal { reason, register, .. }: &Refusal| {
             format!("{reason} ({register} {})", formats.fixed(*register))
         };
-        self.refusals.iter().map(told).collect()
+        self.refusals.iter().chain(&self.reservations).map(told).collect()
     }
 }
 
@@ -76,12 +77,19 @@ impl Formats<'_> {
         registers.iter().copied().fold(registers[0], less)
     }
 
+    /// How far a view register is off at most on the screen (equation 29).
+    pub(super) fn view_drift(&self, geometry: &Geometry, register: Register) -> f64 {
+        let last = geometry.columns - 1 + (geometry.lines - 1);
+        (1.0 + f64::from(last)) * self.fixed(register).ulp() / 2.0
+    }
+
     /// What does not hold of the accumulators of the view: coefficients are below two, and half a
-    /// bit off each (equation 29).
+    /// bit off each; `pixels` says what an error of the registers is on the screen.
     pub(super) fn view_refusals(
         &self,
         geometry: &Geometry,
         registers: &[Register],
+        pixels: impl FnOnce(f64) -> f64,
     ) -> impl Iterator<Item = Refusal> {
         let (shortest, limit) = self.shortest(registers);
         let range = (limit < 2.0).then(|| Refusal {
@@ -91,9 +99,8 @@ impl Formats<'_> {
             register: shortest,
         });
         let coarsest = self.coarsest(registers);
-        let coefficients = f64::from(geometry.columns) + f64::from(geometry.lines);
-        let drift = coefficients * self.fixed(coarsest).ulp() / 2.0;
-        let rounding = (drift > geometry.finest_angle / 128.0).then(|| Refusal {
+        let drift = pixels(self.view_drift(geometry, coarsest));
+        let rounding = (drift > 1.0 / 128.0).then(|| Refusal {
             field: "screen.size",
             reason: "the roundings of the view coefficients add up to more than 1/128 pixel".into(),
             remedy: "draw fewer or coarser pixels",

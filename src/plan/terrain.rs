@@ -12,7 +12,7 @@ use super::geometry::Geometry;
 use super::proof::{Proof, Refusal, in_pixels};
 use super::planned::{Planned, Projection};
 use super::word_class::{LARGEST_PLACE, WordClass};
-use crate::scene::{Deformation, Outside, Scene, Terrain};
+use crate::scene::{Bisection, Deformation, Outside, Scene, Terrain};
 use crate::word::Register;
 pub use units::Fitted;
 
@@ -66,14 +66,14 @@ pub struct TerrainPlan {
     pub extreme: f64,
     /// Bisection steps at distance one.
     pub bisection_bias: i32,
+    /// k: the largest component of a step lies between 2^-k-1 and 2^-k.
+    pub fineness: u32,
     needs: Needs,
 }
 
 /// What the registers of a walk must hold, whatever their formats.
 #[derive(Clone, Debug)]
 struct Needs {
-    /// Steps are between 2^-fineness-1 and 2^-fineness in their largest component.
-    fineness: u32,
     /// Largest magnitude of x and z.
     horizontal: f64,
     /// Largest magnitude of a ray's height.
@@ -82,11 +82,22 @@ struct Needs {
     heights: f64,
     /// Largest factor or slope on cells that are not squares of the height unit.
     steepest: f64,
+    /// The largest slope and the bisection steps that it takes, where it takes any.
+    cliffs: Option<(f64, i32)>,
     /// The base of the map is to blame for a walk too long.
     base_is_deep: bool,
     /// Steps of the longest walk.
     steps: f64,
 }
+
+/// A surface up to so steep takes no bisection steps of its own: the height at the middle of the last
+/// interval is a quarter of a pixel off.
+const GENTLE: f64 = 16.0;
+
+/// The rounding of a step, in pixels: at most this.
+const COARSEST: f64 = 0.5;
+/// The same in words that the plan chooses while there are finer ones.
+const FINE: f64 = 1.0 / 64.0;
 
 /// Eyes less than this above the highest node start their rays at the eye: the ratio of so thin a
 /// slab would have no bits.
@@ -149,8 +160,10 @@ impl TerrainPlan {
         let vertical = start_y.abs().max(base.abs()).max(eye_y.abs()) + 2.0 * walk + 2.0;
         // Step and distance lie along one ray, so their largest components are in the ratio of
         // their lengths: 2^-k · 2^-n <= 2^e · finest_angle / 32 (equation 22).
+        let slope = steepest_slope(terrain);
+        let steep = libm::log2(slope / GENTLE).ceil().max(0.0) as i32;
         let bisection_bias =
-            libm::log2(32.0 / geometry.finest_angle).ceil() as i32 - fineness as i32;
+            libm::log2(32.0 / geometry.finest_angle).ceil() as i32 - fineness as i32 + steep;
         Self {
             fitted: Fitted::new(terrain, scene, words, full, from_eye, unit),
             stretch: scene.kernel.deformation == Deformation::Stretch,
@@ -165,16 +178,43 @@ impl TerrainPlan {
             range,
             extreme: horizontal.max(vertical),
             bisection_bias,
+            fineness,
             needs: Needs {
-                fineness,
                 horizontal,
                 vertical,
                 heights: (highest - lowest) / unit * 8.0,
                 steepest: ((highest - lowest) * 2.25).max(unit) / terrain.cell.min_element(),
+                cliffs: (steep > 0 && scene.stepper.halvings == Bisection::Footprint)
+                    .then_some((slope, steep)),
                 base_is_deep: deep > reach && -base > eye_y.abs(),
                 steps,
             },
         }
+    }
+
+    /// How far the rounding of its steps moves a ray on the screen, pixels: at most this in registers
+    /// of these formats (equation 36).
+    pub fn step_rounding(&self, geometry: &Geometry, formats: &Formats<'_>) -> f64 {
+        self.rounding_on(self.lengths, geometry, formats)
+    }
+
+    /// The same on cells and height units of these lengths.
+    fn rounding_on(&self, lengths: DVec3, geometry: &Geometry, formats: &Formats<'_>) -> f64 {
+        let ulp = |register| formats.fixed(register).ulp();
+        let ulps = DVec3::new(ulp(Register::GroundX), ulp(Register::RayY), ulp(Register::GroundZ));
+        let (largest, exponent) = libm::frexp(largest_view(geometry, lengths));
+        // A register may round up to the power of two that its value is just below.
+        let coarsest = formats.coarsest(&[Register::ViewX, Register::ViewY, Register::ViewZ]);
+        let up = largest + formats.view_drift(geometry, coarsest) >= 1.0;
+        let places = exponent + i32::from(up) + self.fineness as i32;
+        geometry.pixels_off(lengths * ulps * libm::scalbn(0.5, places))
+    }
+
+    /// How far errors of the view registers of up to `drift` move a ray on the screen, pixels
+    /// (equation 36).
+    pub fn drift_in_pixels(&self, geometry: &Geometry, drift: f64) -> f64 {
+        let exponent = libm::frexp(largest_view(geometry, self.lengths)).1;
+        geometry.pixels_off(self.lengths * libm::scalbn(drift, exponent))
     }
 
     fn too_far(&self, reach: &str, (register, limit): (Register, f64)) -> Refusal {
@@ -209,26 +249,30 @@ impl Planned for TerrainPlan {
     fn proof(&self, geometry: &Geometry, formats: &Formats<'_>) -> Proof {
         use Register as R;
         let needs = &self.needs;
-        let mut refusals = Vec::new();
+        let (mut refusals, mut reservations) = (Vec::new(), Vec::new());
 
         // A direction is one rounding per step away from the view vector's.
-        let coarsest = formats.coarsest(&[R::GroundX, R::GroundZ, R::RayY]);
-        let direction = libm::exp2(f64::from(needs.fineness)) * formats.fixed(coarsest).ulp();
-        if direction > geometry.finest_angle / 64.0 {
-            refusals.push(Refusal {
-                field: "screen.fov",
-                reason: format!(
-                    "the rounding of a step is {:.2} pixel, more than 1/64",
-                    direction / geometry.finest_angle
-                ),
-                remedy: "give the screen coarser pixels, or bring it nearer to its axis",
-                register: coarsest,
+        let step = self.step_rounding(geometry, formats);
+        if step > FINE {
+            let coarse = if step > COARSEST { &mut refusals } else { &mut reservations };
+            // On cubes of the same number of pixels the cells would not be to blame.
+            let on_cubes = self.rounding_on(DVec3::ONE, geometry, formats);
+            let (field, remedy) = if on_cubes > FINE {
+                ("screen.fov", "give the screen coarser pixels, or bring it nearer to its axis")
+            } else {
+                ("surface.cell", "make its sides more alike, or give the screen coarser pixels")
+            };
+            coarse.push(Refusal {
+                field,
+                reason: format!("the rounding of a step is {step:.2} pixel, more than 1/64"),
+                remedy,
+                register: formats.coarsest(&[R::GroundX, R::GroundZ, R::RayY]),
             });
         }
         let view = [R::ViewX, R::ViewY, R::ViewZ, R::Denominator];
         // Rays that start at the eye use no denominator.
         let used = if self.from_eye { &view[..3] } else { &view[..] };
-        refusals.extend(formats.view_refusals(geometry, used));
+        refusals.extend(formats.view_refusals(geometry, used, |drift| self.drift_in_pixels(geometry, drift)));
 
         let (node, limit) = formats.shortest(&[R::Node]);
         if needs.heights > limit {
@@ -275,9 +319,11 @@ impl Planned for TerrainPlan {
                 needs.horizontal, ground.1, needs.vertical, ray.1
             )
         };
-        facts +=
-            &format!(", a step's rounding is {}", in_pixels(geometry.finest_angle / direction));
-        Proof { facts, refusals, reservations: Vec::new() }
+        facts += &format!(", a step's rounding is {}", in_pixels(step.recip()));
+        if let Some((slope, steps)) = needs.cliffs {
+            facts += &format!(", slopes of up to {slope:.0} take {steps} more bisection steps");
+        }
+        Proof { facts, refusals, reservations }
     }
 
     fn projection(&self, geometry: &Geometry) -> Projection {
@@ -297,6 +343,19 @@ impl Planned for TerrainPlan {
     fn units(&self, geometry: &Geometry, _: bool) -> Vec<UnitFit> {
         self.unit_fits(geometry)
     }
+}
+
+/// Largest component of a view vector on the screen, in cells or height units of these lengths.
+fn largest_view(geometry: &Geometry, lengths: DVec3) -> f64 {
+    let largest = geometry.corners().map(|view| (view / lengths).abs().max_element());
+    largest.into_iter().fold(0.0, f64::max)
+}
+
+/// Bound of the surface's slope, height over ground: kernels are at most twice as steep as the line
+/// between two nodes.
+fn steepest_slope(terrain: &Terrain) -> f64 {
+    let [x, z] = terrain.map.rises().map(|rise| 2.0 * f64::from(rise) * terrain.scale.abs());
+    (x / terrain.cell.x).hypot(z / terrain.cell.y)
 }
 
 fn positions(reach: f64) -> String {

@@ -51,7 +51,7 @@ pub(super) fn choose(scene: &Scene, geometry: &Geometry, full: bool) -> Result<C
         };
         return of_sweep(scene, geometry, words, of(words));
     }
-    let asked_for = |choice, why: &str| Choice { why: why.to_owned(), ..choice };
+    let asked_for = |choice: Choice, why| Choice { why: format!("{why}: {}", choice.why), ..choice };
     Ok(match asked {
         WordSize::Narrow => {
             let choice = proved(narrow, Proof::holds).map_err(|refusal| PlanError::Range {
@@ -65,8 +65,9 @@ pub(super) fn choose(scene: &Scene, geometry: &Geometry, full: bool) -> Result<C
         WordSize::Auto => match proved(narrow, Proof::holds_well) {
             Ok(choice) => choice,
             Err(refusal) => {
-                let why = format!("32 bits are not enough: {}", refusal.reason);
-                Choice { why, ..proved(wide, Proof::holds)? }
+                let choice = proved(wide, Proof::holds)?;
+                let why = format!("32 bits are not enough: {}; {}", refusal.reason, choice.why);
+                Choice { why, ..choice }
             }
         },
     })

@@ -17,7 +17,8 @@ table! {
         width: u32 = 32, Kind::Whole(2..=62);
         /// Bits after the point, no more than the width.
         point: u32 = 8, Kind::Whole(0..=62);
-        /// What happens to bits that do not fit below.
+        /// What happens to bits that do not fit below: of heights, weights and tones. View, ground and
+        /// ray_y are added unrounded: "nearest" alone.
         rounding: Rounding = Rounding::Nearest, Rounding::kind();
         /// What happens to values that do not fit above.
         overflow: Overflow = Overflow::Wrap, Overflow::kind();

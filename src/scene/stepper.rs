@@ -16,7 +16,7 @@ table! {
         /// k: the largest component of a step lies between 2^-k-1 and 2^-k cells.
         fineness: u32 = 3, Kind::Whole(0..=6);
         /// Bisection steps after the first hit; "footprint": until a step is at most 1/32 of the
-        /// pixel's footprint.
+        /// pixel's footprint, and less on maps with cliffs.
         halvings: Bisection = Bisection::Footprint,
             Kind::WordOr(vec!["footprint"], Box::new(Kind::Whole(0..=20)));
     }

@@ -43,7 +43,9 @@ pub fn slope(shape: KernelShape, t: f64) -> f64 {
 pub fn steepest(shape: KernelShape) -> f64 {
     match shape {
         KernelShape::Hat => 1.0,
-        _ => -slope(shape, 0.5),
+        KernelShape::Cosine | KernelShape::Parabola => -slope(shape, 0.5),
+        // On either side of the middle, where the two halves meet less steeply.
+        KernelShape::Exponential => -slope(shape, libm::sqrt(1.0 / (8.0 * std::f64::consts::LN_2))),
     }
 }
 

@@ -112,8 +112,9 @@ fn interpolator<W: Open>(
     let format = world.weight(Register::Weight);
     let weight = |value| load(value, Register::Weight, format);
     let slope_scale = if walk.fitted.slope_scale.fitted {
-        let unit = walk.lengths.y;
-        Some([weight(unit / walk.lengths.x)?, weight(unit / walk.lengths.z)?])
+        // A constant map has no slopes: a full machine's factors multiply zeros and are one.
+        let factor = |cell| if walk.top == 0.0 { 1.0 } else { walk.lengths.y / cell };
+        Some([weight(factor(walk.lengths.x))?, weight(factor(walk.lengths.z))?])
     } else {
         None
     };

@@ -1,7 +1,8 @@
 //! Fixed-point formats with their rounding and overflow, on plain integers.
 
 /// Rounding of a fixed-point result; by default that of stock registers. Where the algorithm fixes
-/// a rounding (quotients are floored, steps of a ray go to nearest) the format's does not matter.
+/// a rounding (quotients are floored, steps of a ray go to nearest) the format's does not matter; a
+/// plan refuses it for registers that know no other ([`Register::is_rounded`](super::Register::is_rounded)).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Rounding {
     /// Toward minus infinity: bits are dropped.

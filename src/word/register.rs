@@ -102,6 +102,18 @@ registers! {
 }
 
 impl Register {
+    /// Whether results in this register are rounded as its format says. All others are loaded to
+    /// nearest, and rounded as the algorithm says or not at all.
+    pub fn is_rounded(self) -> bool {
+        match self.class() {
+            // Coefficients and sums of them; quotients and halvings are floored, steps go to nearest.
+            Class::View | Class::Ground => false,
+            Class::Height => matches!(self, Self::Surface | Self::SlopeX | Self::SlopeZ),
+            Class::Weight => self == Self::Weight,
+            Class::Tone => true,
+        }
+    }
+
     /// The register whose format this one takes, because the two meet in one adder.
     pub fn follows(self) -> Option<Self> {
         match self {
@@ -144,6 +156,11 @@ impl Registers {
             Self::Class(class) => class.name(),
             Self::One(register) => register.name(),
         }
+    }
+
+    /// Whether a rounding asked for them acts anywhere.
+    pub fn are_rounded(self) -> bool {
+        Register::ALL.iter().any(|&register| self.contains(register) && register.is_rounded())
     }
 
     /// Whether a register is among them.

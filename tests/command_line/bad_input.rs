@@ -248,6 +248,14 @@ fn formats_that_no_register_can_have() {
     }
     render(&folder, &["flight", "--format", "grund=24.8"], &["ground"]);
     render(&folder, &["flight", "--format", "ground=4.8"], &["ground"]);
+    for name in ["view", "view_y", "denominator", "ground", "ground_x", "ray_y"] {
+        for rounding in ["floor", "toward_zero", "nearest_even", "stochastic"] {
+            let asked = format!("{name}=12.20:{rounding}");
+            let told =
+                [&format!("format.{name}"), rounding, "would act nowhere", "leave the rounding"];
+            render(&folder, &["flight", "--format", &asked], &told);
+        }
+    }
     let saturating = ["flight", "--format", "ground=24.8:nearest:saturate"];
     render(&folder, &saturating, &["--engine processor"]);
     render(&folder, &[&saturating[..], &["--engine", "fast"]].concat(), &["--engine processor"]);

@@ -87,7 +87,7 @@ fn the_scene_that_is_written_draws_the_same() {
         ],
         &["--set", "screen.mount.heading=5", "--set", "surface.nodata=7"],
         &["--set", "surface.kind=plane"],
-        &["--format", "ground=24.12:floor", "--format", "ground_x=24.14"],
+        &["--format", "height=24.12:floor", "--format", "ground_x=24.14"],
     ] {
         let dem = ["render", "maps/deep/a \"b\".asc", "--sample", "0"];
         let small = if options.contains(&"--size") { &[][..] } else { &["--set", "seed=3"] };

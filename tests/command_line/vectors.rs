@@ -81,7 +81,7 @@ fn vectors_that_cannot_be_written() {
     for lines in ["0", "3..3", "5..2", "0..9", "8..9", "x", "1..", "..", "-1", "4294967296", ""] {
         vectors(&[&format!("--lines={lines}")], &["--lines", "at most 8"]);
     }
-    vectors(&["--format", "ground=12.12:stochastic"], &["ground_x", "stochastic", "nearest"]);
+    vectors(&["--format", "weight=12.12:stochastic"], &["weight", "stochastic", "nearest"]);
     vectors(&["--set", "camera.pich=3"], &["camera.pitch"]);
     let under = ["vectors", "valley", "-o", "out", "--set", "camera.position=[232.0, 1.0, 168.0]"];
     assert!(refused(&folder, &under).contains("camera.position"));

@@ -21,7 +21,9 @@ pub fn registers() -> String {
          Formats are written Q*i.f*: *i* bits before the point, sign included, *f* after it. \
          Numbers in parentheses are equations of [mathematics.md](mathematics.md). A register \
          named under *follows* meets its leader in an adder and always has its format; \
-         `[format]` sets the leader. Exponents e and d are powers of two of the set-up that bring \
+         `[format]` sets the leader. A rounding of `[format]` acts on `surface` and slopes (by `node`), \
+         on `weight` where positions have more bits, and on all of class tone; other registers are \
+         loaded to nearest and never rounded, or as the algorithm says, and take none. Exponents e and d are powers of two of the set-up that bring \
          the largest value on the screen into [½, 1).\n\n\
          | register | class | unit | holds | measure | narrow | wide | follows | equations | error bound |\n\
          |---|---|---|---|---|---|---|---|---|---|\n",

@@ -158,24 +158,24 @@ fn told(name: &str, formats: &[(&str, u32, u32)]) -> (String, Vec<String>) {
 #[test]
 fn the_plan_speaks_of_the_formats_in_use() {
     let (stock, nothing) = told("overview", &[]);
-    assert_eq!(stock, "positions reach 1060 of 2048 cells, a step's rounding is 1/115 pixel");
+    assert_eq!(stock, "positions reach 1060 of 2048 cells, a step's rounding is 1/74 pixel");
     assert!(nothing.is_empty());
     assert_eq!(told("overview", &[("ground", 12, 20), ("ray_y", 12, 20)]), (stock, nothing));
 
     // 8 bits for 20: a rounding 4096 times as large.
-    let coarse = "a step's rounding is 35.76 pixels";
+    let coarse = "a step's rounding is 49.77 pixels";
     let (why, open) = told("overview", &[("ground", 24, 8)]);
     assert!(why.starts_with("positions reach 1060 of 8388608 cells, heights"), "{why}");
     assert!(why.ends_with(coarse), "{why}");
-    let claim = "the rounding of a step is 35.76 pixel, more than 1/64 (ground_x Q24.8)";
+    let claim = "the rounding of a step is 49.77 pixel, more than 1/64 (ground_x Q24.8)";
     assert_eq!(open, [claim]);
-    // The coarsest register counts, and one of the registers may be to blame.
+    // Each register counts by itself, and the coarsest is to blame.
     let (why, open) = told("overview", &[("ground", 12, 30), ("ground_z", 24, 8)]);
     assert!(
-        why.starts_with("positions reach 1060 of 2048 cells") && why.ends_with(coarse),
+        why.starts_with("positions reach 1060 of 2048 cells") && why.ends_with("32.90 pixels"),
         "{why}"
     );
-    assert_eq!(open, [claim.replace("ground_x", "ground_z")]);
+    assert_eq!(open, [claim.replace("49.77", "32.90").replace("ground_x", "ground_z")]);
 
     let claims = |name, format| told(name, &[format]).1.join("; ");
     for (name, format, part) in [
@@ -206,8 +206,8 @@ fn the_plan_speaks_of_the_formats_in_use() {
     }
     // The last bits that are fine enough, and the first that are not.
     for (register, integer, point, part) in [
-        ("view", 2, 27, "roundings of the view coefficients"),
-        ("ground", 12, 19, "the rounding of a step is 0.02 pixel"),
+        ("view", 2, 28, "roundings of the view coefficients"),
+        ("ground", 12, 19, "the rounding of a step is 0.03 pixel"),
     ] {
         let found = claims("overview", (register, integer, point));
         assert!(found.contains(part), "{register}: {found}");

@@ -13,7 +13,7 @@ use terraline::plan::Plan;
 use terraline::setup::Setup;
 use terraline::word::Complete;
 
-use crate::cosim::{self, Outcome, Window};
+use crate::cosim::{self, Fault, Outcome, Window};
 use crate::rtl::Rtl;
 use crate::waves;
 
@@ -21,7 +21,7 @@ use crate::waves;
 /// emulator.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: terraline-hdl cosim flight --size 160x120 --trace flight.fst\n\
-                  Exit code 1: something differs.")]
+                  Exit code 1: something differs, or the RTL reads beside its memories.")]
 pub struct Cosim {
     #[command(flatten)]
     scene: SceneArgs,
@@ -80,10 +80,10 @@ struct Compare<'a> {
 }
 
 impl WithSetup for Compare<'_> {
-    type Output = Result<(Outcome, Option<String>), String>;
+    type Output = Result<(Outcome, Option<String>), Fault>;
 
     fn run<W: Complete>(self, setup: &Setup<W>) -> Self::Output {
-        let rtl = Rtl::new(setup)?;
+        let rtl = Rtl::new(setup).map_err(Fault::Refused)?;
         let waves = self.trace.map(|(path, _)| waves::gtkw(Path::new(path), setup, &rtl));
         let outcome = cosim::compare_with(rtl, setup, self.taker, self.trace)?;
         Ok((outcome, waves))
@@ -94,7 +94,13 @@ impl Cosim {
     pub fn run(&self) -> Result<(), Stop> {
         let planned = self.scene.load()?;
         let (scene, plan) = (&planned.scene, &planned.plan);
-        let refuse = |reason: String| Stop::BadInput(format!("{}: {reason}", planned.named));
+        let stop = |fault: Fault| match fault {
+            Fault::Refused(reason) => Stop::BadInput(format!("{}: {reason}", planned.named)),
+            Fault::Wrong(what) => {
+                eprintln!("error: {}: {what}", planned.named);
+                Stop::Failure
+            }
+        };
         let window = self.window(plan).map_err(Stop::BadInput)?;
         let path = self.trace.as_deref().map(trace_path).transpose()?;
         let compare = Compare {
@@ -107,7 +113,7 @@ impl Cosim {
         let machine = planned.machine()?;
         let start = Instant::now();
         let (outcome, waves) =
-            report::while_waiting("the RTL draws", || machine.run(compare)).map_err(refuse)?;
+            report::while_waiting("the RTL draws", || machine.run(compare)).map_err(stop)?;
         let seconds = start.elapsed().as_secs_f64();
         let waves = self.trace.as_deref().zip(waves);
         let waves = waves.map(|(trace, text)| write_waves(trace, &text)).transpose()?;

@@ -11,6 +11,7 @@ pub struct HeightMap {
     samples: Vec<f32>,
     range: (f32, f32),
     voids: usize,
+    rises: [f32; 2],
 }
 
 impl HeightMap {
@@ -26,7 +27,8 @@ impl HeightMap {
             .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s)));
         assert!(range.0.is_finite() && range.1.is_finite());
         let voids = samples.iter().filter(|sample| sample.is_nan()).count();
-        Self { columns, rows, samples, range, voids }
+        let rises = rises(&samples, columns);
+        Self { columns, rows, samples, range, voids, rises }
     }
 
     /// The same with no data where a sample has a value; `None` if that is everywhere.
@@ -66,4 +68,19 @@ impl HeightMap {
     pub fn range(&self) -> (f32, f32) {
         self.range
     }
+
+    /// Largest differences of neighbouring samples with data, along rows and along columns.
+    pub fn rises(&self) -> [f32; 2] {
+        self.rises
+    }
+}
+
+fn rises(samples: &[f32], columns: usize) -> [f32; 2] {
+    // The greater of a number and NaN is the number.
+    let rise = |most: f32, (a, b): (&f32, &f32)| most.max((a - b).abs());
+    let along = |row: &[f32]| row.iter().zip(&row[1..]).fold(0.0, rise);
+    [
+        samples.chunks_exact(columns).map(along).fold(0.0, f32::max),
+        samples.iter().zip(samples.iter().skip(columns)).fold(0.0, rise),
+    ]
 }

@@ -28,6 +28,7 @@ pub fn requests() -> BoxedStrategy<(Registers, FormatRequest)> {
             let integer = (least + integer).min(60);
             let point = point.clamp(1, 62 - integer);
             let width = integer + point;
+            let rounding = if registers.are_rounded() { rounding } else { Rounding::Nearest };
             let request = FormatRequest { width, point, rounding, overflow: Overflow::Wrap };
             (registers, request)
         })

@@ -60,8 +60,8 @@ pub fn scenes(candidate: &Draw) {
 pub fn sweeps(candidate: &Draw) {
     let mut compared = Compared::default();
     let formats = [
-        (Class::Ground, 24, 8, Rounding::Floor),
-        (Class::Ground, 40, 12, Rounding::Stochastic),
+        (Class::Ground, 24, 8, Rounding::Nearest),
+        (Class::Ground, 40, 12, Rounding::Nearest),
         (Class::Height, 26, 6, Rounding::TowardZero),
         (Class::Weight, 9, 5, Rounding::NearestEven),
         (Class::View, 14, 12, Rounding::Nearest),

@@ -6,6 +6,8 @@ mod bad_input;
 mod height_files;
 #[path = "command_line/json_page.rs"]
 mod json_page;
+#[path = "command_line/measured.rs"]
+mod measured;
 #[path = "command_line/scenes.rs"]
 mod scenes;
 #[path = "command_line/vectors.rs"]
@@ -73,7 +75,7 @@ impl Folder {
     fn json(&self, arguments: &[&str]) -> Value {
         let text = self.prints(&[arguments, &["--json"]].concat());
         let object: Value = serde_json::from_str(&text).expect("one JSON value on stdout");
-        assert_eq!(object["schema"], 2);
+        assert_eq!(object["schema"], 3);
         assert_eq!(object["command"], arguments[0]);
         assert_eq!(object["version"], env!("CARGO_PKG_VERSION"));
         object

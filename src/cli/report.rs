@@ -15,7 +15,7 @@ pub fn print(text: &str) {
 /// Prints one JSON object: `schema`, `command`, `scene`, `version`, then the command's fields.
 pub fn json(command: &str, scene: Option<&str>, fields: &impl Serialize) -> Result<(), Stop> {
     let mut object = Map::new();
-    object.insert("schema".into(), 2.into());
+    object.insert("schema".into(), 3.into());
     object.insert("command".into(), command.into());
     object.insert("scene".into(), scene.map_or(Value::Null, Value::from));
     object.insert("version".into(), env!("CARGO_PKG_VERSION").into());

@@ -284,7 +284,12 @@ fn compare_ends_by_what_it_finds() {
         let object = folder.json(&["compare", processor, coarse]);
         assert!(object["scene"].is_null() && object.as_object().unwrap().len() > 4, "{object}");
     }
-    assert_eq!(code(&["fast.png", "coarse.png", "-o", "difference.png"]), Some(0));
+    let why = folder.run(&["compare", "processor.npz", "coarse.npz", "--max-diff", "0"]);
+    let why = String::from_utf8_lossy(&why.stderr).into_owned();
+    assert!(why.starts_with("beyond --max-diff 0: ") && why.contains("ground_x"), "{why}");
+    let drawn = folder.run(&["compare", "fast.png", "coarse.png", "-o", "difference.png"]);
+    assert_eq!(drawn.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&drawn.stderr).contains("95 % lie within"));
     assert_eq!(folder.size("difference.png"), (32, 24));
     folder.prints(&["render", "flight", "--size", "24x32", "-o", "other.png"]);
     assert_eq!(code(&["fast.png", "other.png"]), Some(2), "pictures of other sizes");

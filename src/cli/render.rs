@@ -77,6 +77,7 @@ impl Render {
         outputs::check(self.outputs())?;
         let planned = self.scene.load()?;
         outputs::keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
+        outputs::check_endings(self.outputs())?;
         let scene_text = self.scene_out.text(&planned)?;
         let pixels = planned.plan.geometry.columns as usize * planned.plan.geometry.lines as usize;
         let buffers = self.buffers.is_some() || self.picture.needs_buffers();

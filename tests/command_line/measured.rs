@@ -75,3 +75,24 @@ fn flips_are_told() {
     let flips = folder.json(&all)["errors"]["flips"].clone();
     assert_eq!((&flips["total"], &flips["out_of_range"]), (&64.into(), &64.into()));
 }
+
+#[test]
+fn endings_say_what_is_written() {
+    let folder = Folder::new();
+    folder.prints(&["render", "plane", "--size", "8x6", "-o", "a.PNG", "--sample", "0"]);
+    folder.prints(&["render", "plane", "--size", "8x6", "-o", "bare", "--sample", "0"]);
+    let before = folder.names();
+    let render = ["render", "plane", "--size", "8x6", "--sample", "0"];
+    for (arguments, remedy) in [
+        (&[&render[..], &["-o", "a.jpg"]].concat()[..], "give --output a.png"),
+        (&[&render[..], &["-o", "a.png", "--buffers", "b.npy"]].concat(), "give --buffers b.npz"),
+        (&[&render[..], &["--scene-out", "c.json"]].concat(), "give --scene-out c.toml"),
+        (&["compare", "a.PNG", "bare", "-o", "d.bmp"], "give --output d.png"),
+    ] {
+        let output = folder.run(arguments);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
+        assert!(stderr.contains(remedy) && stderr.lines().count() == 1, "{stderr}");
+        assert_eq!(folder.names(), before, "{arguments:?}");
+    }
+}

@@ -243,7 +243,7 @@ fn explain_reports_rows_in_json() {
         for row in rows {
             assert!(row["register"].is_string() && row["value"].is_number(), "{row}");
             if let (Some(error), Some(bound)) = (row["error"].as_f64(), row["bound"].as_f64()) {
-                assert!(error.abs() <= bound, "{row}");
+                assert!(error.abs() <= bound && row["beyond_bound"] == false, "{row}");
                 bounded += 1;
             }
         }
@@ -251,6 +251,39 @@ fn explain_reports_rows_in_json() {
         let text = folder.prints(&["explain", scene, "--pixel", pixel]);
         assert!(text.contains("view_x"), "{text}");
     }
+}
+
+#[test]
+fn explain_marks_what_is_beyond_its_bound() {
+    let folder = Folder::new();
+    // 256 of the map's 344 columns and rows: positions wrap in the far corner.
+    let narrow =
+        ["explain", "overview", "--size", "48x36", "--format", "ground=9.20", "--pixel", "0,10"];
+    let (object, text) = (folder.json(&narrow), folder.prints(&narrow));
+    let marked: Vec<&str> = object["rows"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|row| row["beyond_bound"] == true)
+        .map(|row| row["what"].as_str().unwrap())
+        .collect();
+    assert!(!marked.is_empty(), "{text}");
+    let told = format!("beyond their bounds (marked !): {}", marked.join(", "));
+    assert!(text.contains(&told), "{told}: {text}");
+    let marks = text.lines().filter(|line| line.contains(" ! ")).count();
+    assert_eq!(marks, marked.len(), "{text}");
+
+    // The powers of two of equations 6 and 9; an eye below the highest node divides nothing.
+    let sound = ["explain", "overview", "--pixel", "400,700"];
+    let (object, text) = (folder.json(&sound), folder.prints(&sound));
+    assert!(!text.contains("beyond their bounds"), "{text}");
+    let told = format!(
+        "hold V 2^{} (equation 6), the denominator D 2^{} (equation 9)",
+        object["view_exponent"], object["denominator_exponent"]
+    );
+    assert!(text.contains(&told), "{told}: {text}");
+    let valley = folder.json(&["explain", "valley", "--pixel", "400,700"]);
+    assert!(valley["denominator_exponent"].is_null() && valley["view_exponent"].is_number());
 }
 
 #[test]

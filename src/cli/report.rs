@@ -73,3 +73,8 @@ pub fn while_waiting<T>(what: &str, work: impl FnOnce() -> T) -> T {
 pub fn not_proved(claims: &[String]) -> Option<String> {
     (!claims.is_empty()).then(|| format!("  not proved: {}", claims.join("; ")))
 }
+
+/// The lines about what should be known before a picture is trusted.
+pub fn cautions(cautions: &[String]) -> impl Iterator<Item = String> {
+    cautions.iter().map(|caution| format!("  caution   {caution}"))
+}

@@ -1,6 +1,6 @@
 //! What `render` says of errors: the sample, the worst pixel, every kind of disagreement.
 
-use super::Folder;
+use super::{Folder, write_map};
 
 #[test]
 fn a_sample_says_what_it_cannot_show() {
@@ -95,4 +95,65 @@ fn endings_say_what_is_written() {
         assert!(stderr.contains(remedy) && stderr.lines().count() == 1, "{stderr}");
         assert_eq!(folder.names(), before, "{arguments:?}");
     }
+}
+
+#[test]
+fn relief_of_a_few_last_bits_is_told() {
+    let folder = Folder::new();
+    // Heights span 218 units of the map: 2 and 200 000 last bits of Q12.20.
+    let cautions = |command: &str, scale: &str| {
+        let scale = format!("surface.height.scale={scale}");
+        let arguments = [command, "overview", "--set", &scale, "--size", "40x30"];
+        let (json, text) = (folder.json(&arguments), folder.prints(&arguments));
+        let told = json["cautions"].as_array().expect("a list").clone();
+        for caution in &told {
+            assert!(text.contains(&format!("  caution   {}", caution.as_str().unwrap())), "{text}");
+        }
+        assert_eq!(text.matches("  caution ").count(), told.len(), "{text}");
+        told
+    };
+    for command in ["render", "plan"] {
+        let told = cautions(command, "1e-8");
+        assert!(
+            told.len() == 1 && told[0].to_string().contains("last bits of register"),
+            "{told:?}"
+        );
+        assert!(cautions(command, "1e-3").is_empty());
+        assert!(cautions(command, "0.025").is_empty());
+    }
+}
+
+#[test]
+fn an_eye_at_the_ground_is_told() {
+    let folder = Folder::new();
+    let ground = 3.0;
+    write_map(&folder.path("flat.png"), 20, 20, |i, j| if i + j == 0 { 30 } else { 3 });
+    let scene = |y: f64| {
+        format!(
+            "[camera]\nposition = [9.5, {y:?}, 9.5]\nheading = 0.0\n[[screen]]\nsize = [40, 30]\n\
+             [[surface]]\nmap = \"flat.png\"\nheight = {{ offset = 0.0, scale = 1.0 }}\n"
+        )
+    };
+    let cautions = |up: f64| {
+        folder.write("near.toml", scene(ground + up));
+        folder.json(&["render", "near.toml"])["cautions"].as_array().expect("a list").clone()
+    };
+    assert!(cautions(1.0).is_empty());
+    for up in [0.0, 1e-6] {
+        let told = cautions(up);
+        assert!(told.len() == 1 && told[0].to_string().contains("above the ground"), "{told:?}");
+    }
+    // The refusal's two numbers differ, and an eye at the second is not refused.
+    folder.write("under.toml", scene(ground - 2e-6));
+    let output = folder.run(&["render", "under.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    let after = |words: &str| -> f64 {
+        let rest = stderr.split_once(words).expect(words).1;
+        let end = rest.find([',', ':', '\n']).expect("an end");
+        rest[..end].trim().parse().unwrap_or_else(|_| panic!("{words}: {stderr}"))
+    };
+    assert!(after("at height ") < after("under it at "), "{stderr}");
+    folder.write("raised.toml", scene(after("raise y above ")));
+    folder.prints(&["render", "raised.toml"]);
 }

@@ -62,6 +62,7 @@ pub(super) struct Summary {
     overflows: Vec<Located>,
     errors: Option<ErrorReport>,
     worst: Option<Pointed>,
+    cautions: Vec<String>,
     chosen: Vec<String>,
 }
 
@@ -134,6 +135,7 @@ impl Render {
                 .collect(),
             errors,
             worst,
+            cautions: machine.cautions(),
             chosen: framing.as_ref().map_or_else(Vec::new, |framing| framing.chosen.clone()),
         })
     }
@@ -151,6 +153,7 @@ impl Render {
             summary.world_why
         )];
         out.extend(report::not_proved(&summary.not_proved));
+        out.extend(report::cautions(&summary.cautions));
         let fitted: Vec<_> =
             summary.units.iter().filter(|unit| unit.fitted).map(|unit| unit.name).collect();
         out.push(format!("  fitted    {}", fitted.join(", ")));

@@ -51,7 +51,7 @@ impl Suspects {
 impl Machine<'_> {
     /// Up to `most` pixels of the frame that are not in a sample, where errors are likely: first
     /// those beside a pixel with another outcome, then by how far the distances of neighbours
-    /// differ; one in [`FAR`] by distance alone.
+    /// differ; a sixth of them by distance alone.
     ///
     /// # Errors
     /// As [`Machine::scan`].

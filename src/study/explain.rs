@@ -71,9 +71,10 @@ pub struct Explanation {
     pub color: [u8; 3],
     /// sRGB bytes: oracle.
     pub oracle_color: [u8; 3],
-    /// Power of two on the view registers, `V 2^e_V` (equation 6).
+    /// Power of two on the view registers, `V 2^e_V` (equation 6; thesis 2.37).
     pub view_exponent: i32,
-    /// Power of two on the denominator, `D 2^e_D` (equation 9); none where nothing is divided.
+    /// Power of two on the denominator, `D 2^e_D` (equation 9; thesis 2.39); none where nothing is
+    /// divided.
     pub denominator_exponent: Option<i32>,
     /// Why the ray ended at the divider, if it did.
     pub turned_away: Option<&'static str>,

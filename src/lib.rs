@@ -92,7 +92,10 @@ pub use study::compare::{
     CompareError, Comparison, compare_files, difference_picture, gain as difference_gain,
 };
 pub use study::cost::Cost;
-pub use study::error::{ErrorReport, PixelError, Sample, Spread};
+pub use study::error::{
+    Counts, ErrorReport, Outcomes, PixelError, Sample, Sheet, Spread, SuspectReport, Suspects,
+    Worst,
+};
 pub use study::explain::Explanation;
 pub use study::explain::text::text as explanation_text;
 pub use word::{Class, Fixed, Register};

@@ -6,6 +6,8 @@ mod bad_input;
 mod height_files;
 #[path = "command_line/json_page.rs"]
 mod json_page;
+#[path = "command_line/measured.rs"]
+mod measured;
 #[path = "command_line/scenes.rs"]
 mod scenes;
 #[path = "command_line/vectors.rs"]
@@ -73,7 +75,7 @@ impl Folder {
     fn json(&self, arguments: &[&str]) -> Value {
         let text = self.prints(&[arguments, &["--json"]].concat());
         let object: Value = serde_json::from_str(&text).expect("one JSON value on stdout");
-        assert_eq!(object["schema"], 2);
+        assert_eq!(object["schema"], 3);
         assert_eq!(object["command"], arguments[0]);
         assert_eq!(object["version"], env!("CARGO_PKG_VERSION"));
         object
@@ -241,7 +243,7 @@ fn explain_reports_rows_in_json() {
         for row in rows {
             assert!(row["register"].is_string() && row["value"].is_number(), "{row}");
             if let (Some(error), Some(bound)) = (row["error"].as_f64(), row["bound"].as_f64()) {
-                assert!(error.abs() <= bound, "{row}");
+                assert!(error.abs() <= bound && row["beyond_bound"] == false, "{row}");
                 bounded += 1;
             }
         }
@@ -249,6 +251,39 @@ fn explain_reports_rows_in_json() {
         let text = folder.prints(&["explain", scene, "--pixel", pixel]);
         assert!(text.contains("view_x"), "{text}");
     }
+}
+
+#[test]
+fn explain_marks_what_is_beyond_its_bound() {
+    let folder = Folder::new();
+    // 256 of the map's 344 columns and rows: positions wrap in the far corner.
+    let narrow =
+        ["explain", "overview", "--size", "48x36", "--format", "ground=9.20", "--pixel", "0,10"];
+    let (object, text) = (folder.json(&narrow), folder.prints(&narrow));
+    let marked: Vec<&str> = object["rows"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|row| row["beyond_bound"] == true)
+        .map(|row| row["what"].as_str().unwrap())
+        .collect();
+    assert!(!marked.is_empty(), "{text}");
+    let told = format!("beyond their bounds (marked !): {}", marked.join(", "));
+    assert!(text.contains(&told), "{told}: {text}");
+    let marks = text.lines().filter(|line| line.contains(" ! ")).count();
+    assert_eq!(marks, marked.len(), "{text}");
+
+    // The powers of two of equations 6 and 9; an eye below the highest node divides nothing.
+    let sound = ["explain", "overview", "--pixel", "400,700"];
+    let (object, text) = (folder.json(&sound), folder.prints(&sound));
+    assert!(!text.contains("beyond their bounds"), "{text}");
+    let told = format!(
+        "hold V 2^{} (equation 6), the denominator D 2^{} (equation 9)",
+        object["view_exponent"], object["denominator_exponent"]
+    );
+    assert!(text.contains(&told), "{told}: {text}");
+    let valley = folder.json(&["explain", "valley", "--pixel", "400,700"]);
+    assert!(valley["denominator_exponent"].is_null() && valley["view_exponent"].is_number());
 }
 
 #[test]
@@ -282,7 +317,12 @@ fn compare_ends_by_what_it_finds() {
         let object = folder.json(&["compare", processor, coarse]);
         assert!(object["scene"].is_null() && object.as_object().unwrap().len() > 4, "{object}");
     }
-    assert_eq!(code(&["fast.png", "coarse.png", "-o", "difference.png"]), Some(0));
+    let why = folder.run(&["compare", "processor.npz", "coarse.npz", "--max-diff", "0"]);
+    let why = String::from_utf8_lossy(&why.stderr).into_owned();
+    assert!(why.starts_with("beyond --max-diff 0: ") && why.contains("ground_x"), "{why}");
+    let drawn = folder.run(&["compare", "fast.png", "coarse.png", "-o", "difference.png"]);
+    assert_eq!(drawn.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&drawn.stderr).contains("95 % lie within"));
     assert_eq!(folder.size("difference.png"), (32, 24));
     folder.prints(&["render", "flight", "--size", "24x32", "-o", "other.png"]);
     assert_eq!(code(&["fast.png", "other.png"]), Some(2), "pictures of other sizes");

@@ -14,7 +14,7 @@ use terraline::scene::{
     Attitude, Deformation, Extent, HeightMap, Kernel, KernelShape, NoData, Outside, Scene,
     StepperMode, WordSize,
 };
-use terraline::study::error::{ErrorReport, Sample};
+use terraline::study::error::{ErrorReport, Sample, Spread};
 
 const KERNELS: [(KernelShape, Deformation); 5] = [
     (KernelShape::Cosine, Deformation::None),
@@ -205,9 +205,14 @@ fn errors_near_holes_are_those_of_any_ground() {
         let total = report.total_px.expect("pixels");
         println!("{shape:?} {deformation:?}: {report:?}");
         // Limits are about twice what is measured.
-        assert!(report.same_sheet > 10_000);
-        assert!(report.silhouettes < sample.len() / 120, "{} silhouettes", report.silhouettes);
-        assert!(total.median < 0.003 && total.p999 < 0.015, "{total:?}");
+        let counts = &report.counts;
+        assert!(counts.same_sheet > 10_000);
+        let silhouettes = counts.lost.total + counts.ghosts.total + counts.flips.total;
+        assert!(silhouettes < sample.len() / 120, "{counts:?}");
+        // Rims are many here: of the lost pixels, which are limited above, none counts below.
+        let same = errors.iter().map(|p| p.total_px).filter(|error| error.is_finite());
+        let p999 = Spread::of(same).expect("pixels").p999;
+        assert!(total.median < 0.003 && p999 < 0.015, "{total:?}, {p999} on the same sheet");
         assert!(report.color_within_2 > 0.992, "{}", report.color_within_2);
     }
 }

@@ -22,7 +22,8 @@ pub struct Compare {
     #[arg(long, value_name = "D")]
     max_diff: Option<f64>,
 
-    /// Write the absolute difference of two pictures, amplified, as a PNG.
+    /// Write the absolute difference of two pictures as a PNG, amplified so that 95 % of the pixels
+    /// that differ stay below full brightness.
     #[arg(short, long, value_name = "OUT.png")]
     output: Option<PathBuf>,
 
@@ -42,6 +43,7 @@ impl Compare {
             let output = [("--output", path.as_path())];
             outputs::check(output)?;
             outputs::keep_inputs(output, &[self.a.clone(), self.b.clone()])?;
+            outputs::check_endings(output)?;
         }
         let comparison = compare_files(&self.a, &self.b)?;
         if let Some(path) = &self.output {
@@ -51,19 +53,28 @@ impl Compare {
                         .into(),
                 ));
             };
-            let gain = gain(pictures.max_difference);
+            let full = pictures.p95_difference;
+            let gain = gain(full);
             let difference = difference_picture(&png::read(&self.a)?, &png::read(&self.b)?, gain)?;
             png::write(path, difference.columns, difference.lines, &difference.pixels)?;
-            eprintln!("wrote {}, differences times {gain}", path.display());
+            eprintln!(
+                "wrote {}: differences times {gain}, black where there is none; of the pixels that \
+                 differ, 95 % lie within {full} levels, larger differences than {} are as bright as it",
+                path.display(),
+                255 / gain
+            );
         }
         if self.json {
             report::json("compare", None, &comparison)?;
         } else {
             report::print(&comparison.to_string());
         }
-        match self.max_diff {
-            Some(limit) if !comparison.is_within(limit) => Err(Stop::Failure),
-            _ => Ok(()),
+        let Some(limit) = self.max_diff else { return Ok(()) };
+        let beyond = comparison.beyond(limit);
+        if beyond.is_empty() {
+            return Ok(());
         }
+        eprintln!("beyond --max-diff {limit}: {}", beyond.join(", "));
+        Err(Stop::Failure)
     }
 }

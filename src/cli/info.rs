@@ -127,7 +127,7 @@ fn describe(path: &Path, reading: &Reading) -> Result<Described, Stop> {
     }
     let asked =
         Interpretation { thinning: Thinning::Fit(MAX_NODES), ..reading.interpretation() };
-    let HeightFile { map, mut georeference, storage, whole, every, nodata, notes } =
+    let HeightFile { map, mut georeference, storage, whole, every, nodata, mut notes } =
         source::read(path, &asked)?;
     // The file is described, not what is kept of it.
     let (columns, rows) = whole;
@@ -138,6 +138,7 @@ fn describe(path: &Path, reading: &Reading) -> Result<Described, Stop> {
         .origin
         .zip(georeference.far_corner(columns, rows))
         .map(|(origin, far)| Extent { west: origin.x, east: far.x, south: far.y, north: origin.y });
+    notes.extend(georeference.height_unit_remark());
     let stem = path.file_stem().map_or_else(|| "terrain".into(), |stem| stem.to_string_lossy());
     let mut render = vec![format!(
         "terraline render {} -o {}",

@@ -3,10 +3,37 @@
 use std::path::{Path, PathBuf};
 
 use super::Stop;
+use crate::scene::quote;
 use crate::sink;
 
 /// An option and the file that it names.
 pub type Named<'a> = (&'a str, &'a Path);
+
+/// The form that each option writes, which is the ending of its file.
+const ENDINGS: [(&str, &str); 4] = [
+    ("--output", "png"),
+    ("--screenshot", "png"),
+    ("--buffers", "npz"),
+    ("--scene-out", "toml"),
+];
+
+/// Refuses a file whose ending promises another form than the option writes. A name without an
+/// ending promises nothing.
+pub fn check_endings<'a>(outputs: impl IntoIterator<Item = Named<'a>>) -> Result<(), Stop> {
+    for (option, path) in outputs {
+        let Some((_, ending)) = ENDINGS.iter().find(|(known, _)| *known == option) else { continue };
+        let Some(found) = path.extension() else { continue };
+        if !found.eq_ignore_ascii_case(ending) {
+            return Err(Stop::BadInput(format!(
+                "{option} {}: .{ending} files are written, not .{}; give {option} {}",
+                path.display(),
+                found.to_string_lossy(),
+                quote(&path.with_extension(ending).to_string_lossy())
+            )));
+        }
+    }
+    Ok(())
+}
 
 /// Refuses outputs that cannot be written, and two options that name one file.
 pub fn check<'a>(outputs: impl IntoIterator<Item = Named<'a>>) -> Result<(), Stop> {

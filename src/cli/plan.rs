@@ -7,6 +7,7 @@ use super::scene_args::SceneArgs;
 use super::{Stop, report};
 use crate::plan::SurfacePlan;
 use crate::plan::units::UnitPlan;
+use crate::study::caution::coarse_relief;
 
 /// Say which units a scene needs, at which widths, and why the others are left out.
 #[derive(Debug, Args)]
@@ -29,6 +30,7 @@ struct Planning {
     words: &'static str,
     words_why: String,
     not_proved: Vec<String>,
+    cautions: Vec<String>,
     screen: String,
     columns: u32,
     lines: u32,
@@ -64,6 +66,7 @@ impl PlanCommand {
             words: plan.words.name,
             words_why: plan.words_why.clone(),
             not_proved: plan.not_proved.clone(),
+            cautions: coarse_relief(&planned.scene, plan, &planned.world),
             screen: plan.screen.name.clone(),
             columns: plan.geometry.columns,
             lines: plan.geometry.lines,
@@ -84,6 +87,7 @@ fn text(scene: &str, planning: &Planning) -> String {
         planning.screen, planning.columns, planning.lines, planning.world, planning.words_why
     )];
     out.extend(report::not_proved(&planning.not_proved));
+    out.extend(report::cautions(&planning.cautions));
     if let Some(walk) = &planning.walk {
         out.push(format!(
             "rays start {}; last sample {}, reach {:.0} cells; heights in units of {} above {}",

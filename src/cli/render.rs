@@ -1,5 +1,6 @@
 //! `terraline render`.
 
+mod errors;
 mod summary;
 
 use std::path::{Path, PathBuf};
@@ -11,6 +12,7 @@ use super::outputs::{self, Named};
 use super::scene_args::{Planned, SceneArgs};
 use super::scene_out::SceneOut;
 use super::{Stop, report};
+use errors::Extent;
 use crate::engine::{Band, Engine, Machine, Wanted};
 use crate::sink::picture::Picture;
 use crate::sink::{npz, png};
@@ -47,9 +49,10 @@ pub struct Render {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     repeat: u32,
 
-    /// Errors are measured on N lines x N columns, one at random in each of N strips; 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(0..=4096))]
-    sample: u32,
+    /// Errors are measured on N lines x N columns, one at random in each of N strips, and on up to
+    /// 6 N² pixels where errors are likely; `all` for every pixel, 0 for none.
+    #[arg(long, value_name = "N|all", default_value = "64", value_parser = Extent::parse)]
+    sample: Extent,
 
     /// One JSON object on stdout.
     #[arg(long)]
@@ -74,6 +77,7 @@ impl Render {
         outputs::check(self.outputs())?;
         let planned = self.scene.load()?;
         outputs::keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
+        outputs::check_endings(self.outputs())?;
         let scene_text = self.scene_out.text(&planned)?;
         let pixels = planned.plan.geometry.columns as usize * planned.plan.geometry.lines as usize;
         let buffers = self.buffers.is_some() || self.picture.needs_buffers();
@@ -84,6 +88,13 @@ impl Render {
                 "--size: {pixels} pixels with their buffers would take gigabytes, at most \
                  {MAX_BUFFERED} are held; draw a smaller frame, or the colour picture with the fast \
                  engine"
+            )));
+        }
+        if self.sample == Extent::All && pixels > MAX_BUFFERED {
+            return Err(Stop::BadInput(format!(
+                "--sample all: the errors of {pixels} pixels would take gigabytes, at most \
+                 {MAX_BUFFERED} are held; draw a smaller frame, or measure a sample of it, for \
+                 example with --sample 1024"
             )));
         }
         let drawn = report::while_waiting("drawing", || self.draw(&planned, buffers))?;

@@ -15,7 +15,7 @@ pub fn print(text: &str) {
 /// Prints one JSON object: `schema`, `command`, `scene`, `version`, then the command's fields.
 pub fn json(command: &str, scene: Option<&str>, fields: &impl Serialize) -> Result<(), Stop> {
     let mut object = Map::new();
-    object.insert("schema".into(), 2.into());
+    object.insert("schema".into(), 3.into());
     object.insert("command".into(), command.into());
     object.insert("scene".into(), scene.map_or(Value::Null, Value::from));
     object.insert("version".into(), env!("CARGO_PKG_VERSION").into());
@@ -72,4 +72,9 @@ pub fn while_waiting<T>(what: &str, work: impl FnOnce() -> T) -> T {
 /// The line about what the formats in use do not hold, if there is anything.
 pub fn not_proved(claims: &[String]) -> Option<String> {
     (!claims.is_empty()).then(|| format!("  not proved: {}", claims.join("; ")))
+}
+
+/// The lines about what should be known before a picture is trusted.
+pub fn cautions(cautions: &[String]) -> impl Iterator<Item = String> {
+    cautions.iter().map(|caution| format!("  caution   {caution}"))
 }

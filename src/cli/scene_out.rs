@@ -1,19 +1,20 @@
-//! `--scene-out`: the scene that was chosen for a height file, as a file to start from.
+//! `--scene-out`: the scene as it is drawn, with all options in it, as a file to start from.
 
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::Stop;
 use super::outputs::Named;
 use super::scene_args::Planned;
+use crate::scene::framing;
 use crate::sink;
 
-/// Where the chosen scene goes.
+/// Where the scene goes.
 #[derive(Debug, Args)]
 pub struct SceneOut {
-    /// Write the scene that was chosen for a height file, to start from.
+    /// Write the scene with all options in it, or the one that was chosen for a height file.
     #[arg(long, value_name = "OUT.toml")]
     scene_out: Option<PathBuf>,
 }
@@ -29,15 +30,17 @@ impl SceneOut {
     /// Asked for before anything is drawn, so that a refusal leaves nothing behind.
     pub fn text(&self, planned: &Planned) -> Result<Option<String>, Stop> {
         let Some(path) = &self.scene_out else { return Ok(None) };
-        let refused =
-            |reason: &str| Err(Stop::BadInput(format!("--scene-out {}: {reason}", path.display())));
-        let Some(framing) = &planned.framing else {
-            return refused(
-                "a scene is written for height files only; copy the scene file, or print a \
-                 built-in scene with `terraline scenes NAME`",
-            );
-        };
-        Ok(Some(framing.file(&planned.scene, path)?))
+        let mut scene = planned.scene.clone();
+        // The first screen is drawn where none is named.
+        let drawn = scene.screens.iter().position(|screen| screen.name == planned.plan.screen.name);
+        scene.screens[..=drawn.unwrap_or_default()].rotate_right(1);
+        Ok(Some(match &planned.framing {
+            Some(framing) => framing.file(&scene, path)?,
+            None => {
+                let folder = Path::new(&planned.named).parent().unwrap_or(Path::new(""));
+                framing::file(&scene, folder, path)?
+            }
+        }))
     }
 
     /// Writes the text, if there is one.

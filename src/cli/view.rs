@@ -83,6 +83,7 @@ mod open {
             outputs::check(self.outputs())?;
             let planned = self.scene.load()?;
             outputs::keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
+            outputs::check_endings(self.outputs())?;
             let scene_text = self.scene_out.text(&planned)?;
             let layout = self.layout(&planned)?;
             let map = self.map(&planned.scene);

@@ -6,6 +6,7 @@ use crate::scene::Scene;
 use crate::setup::SetupError;
 use crate::word::stock::{Narrow, Wide};
 use crate::word::sweep::Sweep;
+use crate::word::{Fixed, Register, World as _};
 
 /// The fixed-point world of a scene.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +40,15 @@ impl FixedWorld {
             Self::Narrow(world) => units(plan, world),
             Self::Wide(world) => units(plan, world),
             Self::Sweep(world) => units(plan, world),
+        }
+    }
+
+    /// Format of a register.
+    pub fn fixed(&self, register: Register) -> Option<Fixed> {
+        match self {
+            Self::Narrow(world) => world.fixed(register),
+            Self::Wide(world) => world.fixed(register),
+            Self::Sweep(world) => world.fixed(register),
         }
     }
 

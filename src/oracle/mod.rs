@@ -156,23 +156,33 @@ impl Oracle {
         self.surfaces.iter().map(|surface| surface.crossings(&ray, from, to)).sum()
     }
 
-    /// Whether the point at `lambda_other` on the ray of a pixel is on the sheet of the surface
-    /// that the pixel sees: both exist and no crossing lies between them other than the one seen.
+    /// What is seen at a line and column, and whether points at two other λ of the same ray are on
+    /// the sheet of the surface that is seen: both exist and no crossing lies between them other
+    /// than the one seen. NaN is on none.
+    ///
+    /// The ray is followed once for all three.
     #[must_use]
-    pub fn same_sheet(&self, line: f64, column: f64, lambda_other: f64) -> bool {
+    pub fn pixel_beside(
+        &self,
+        line: f64,
+        column: f64,
+        others: [f64; 2],
+    ) -> (Sighting, [bool; 2]) {
         let ray = self.view.ray(line, column);
         if let [surface] = &self.surfaces[..] {
             // Nothing can stand before it, so that its own crossings are all that is asked.
-            return surface.same_sheet(&ray, &self.look, lambda_other);
+            return surface.sight_beside(&ray, &self.look, others);
         }
         let sighting = self.nearest(&ray);
-        let (from, to) = (sighting.lambda.min(lambda_other), sighting.lambda.max(lambda_other));
-        self.surfaces.iter().enumerate().all(|(at, surface)| {
-            if at == sighting.surface {
-                surface.same_sheet(&ray, &self.look, lambda_other)
-            } else {
-                surface.crossings(&ray, from, to) == 0
-            }
-        })
+        let own = self.surfaces[sighting.surface].sight_beside(&ray, &self.look, others).1;
+        let mut sheets = [false; 2];
+        for ((sheet, own), other) in sheets.iter_mut().zip(own).zip(others) {
+            let (from, to) = (sighting.lambda.min(other), sighting.lambda.max(other));
+            *sheet = own
+                && self.surfaces.iter().enumerate().all(|(at, surface)| {
+                    at == sighting.surface || surface.crossings(&ray, from, to) == 0
+                });
+        }
+        (sighting, sheets)
     }
 }

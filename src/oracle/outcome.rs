@@ -28,6 +28,30 @@ impl Outcome<'_> {
     fn miss(hit: Hit, tangent: bool) -> Self {
         Self { hit, lambda: f64::NAN, patch: (0, 0), tangent, behind: None }
     }
+
+    /// Whether the hit of the ray and its point at another λ lie on one sheet of the surface: no
+    /// crossing lies between them other than the hit itself. A point somewhat behind the surface,
+    /// but not through to the other side of the ground, is on the same sheet.
+    #[must_use]
+    pub fn is_same_sheet(&self, ground: &HeightField, ray: &Ray, other: f64) -> bool {
+        let Some(traversal) = &self.behind else {
+            return false;
+        };
+        if !other.is_finite() || other < 0.0 {
+            return false;
+        }
+        if other <= self.lambda {
+            // Nothing is crossed before the first hit; a contact would be taken for a crossing.
+            return !self.tangent;
+        }
+        match over_domain(ground, &Track::new(ground, ray), self.lambda, other) {
+            Some((_, end)) if end >= other => {
+                let mut traversal = traversal.clone().until(other);
+                traversal.next_crossing().is_none() && traversal.touches() == 0
+            }
+            _ => false,
+        }
+    }
 }
 
 /// The first entry of a ray into the solid for λ > 0. On a map that goes on for ever the traversal ends
@@ -119,32 +143,6 @@ pub fn count_crossings(ground: &HeightField, ray: &Ray, from: f64, to: f64) -> u
         count += 1;
     }
     count + traversal.touches() + usize::from(!traversal.above() && end < to)
-}
-
-/// Whether the hit of the ray and its point at another λ lie on one sheet of the surface: no
-/// crossing lies between them other than the hit itself. A point somewhat behind the surface, but
-/// not through to the other side of the ground, is on the same sheet.
-#[must_use]
-pub fn is_same_sheet(ground: &HeightField, ray: &Ray, reach_cells: f64, other: f64) -> bool {
-    let outcome = first_entry(ground, ray, reach_cells);
-    let Some(traversal) = outcome.behind else {
-        return false;
-    };
-    if !other.is_finite() || other < 0.0 {
-        return false;
-    }
-    if other <= outcome.lambda {
-        // Nothing is crossed before the first hit; a contact would be taken for a crossing.
-        return !outcome.tangent;
-    }
-    let track = Track::new(ground, ray);
-    match over_domain(ground, &track, outcome.lambda, other) {
-        Some((_, end)) if end >= other => {
-            let mut traversal = traversal.until(other);
-            traversal.next_crossing().is_none() && traversal.touches() == 0
-        }
-        _ => false,
-    }
 }
 
 /// λ at which a track is `reach_cells` away from the eye.

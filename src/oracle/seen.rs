@@ -24,14 +24,17 @@ pub(crate) struct Look {
 
 /// A surface as rays see it by itself, whatever its kind.
 pub(crate) trait Seen: Debug + Send + Sync {
+    /// What a ray sees of it, and whether the ray's points at other λ are on the sheet that it
+    /// sees. NaN is on none.
+    fn sight_beside(&self, ray: &Ray, look: &Look, others: [f64; 2]) -> (Sighting, [bool; 2]);
+
     /// What a ray sees of it.
-    fn sight(&self, ray: &Ray, look: &Look) -> Sighting;
+    fn sight(&self, ray: &Ray, look: &Look) -> Sighting {
+        self.sight_beside(ray, look, [f64::NAN; 2]).0
+    }
 
     /// How often a ray crosses it strictly between two λ, in ascending order.
     fn crossings(&self, ray: &Ray, from: f64, to: f64) -> usize;
-
-    /// Whether the point of a ray at another λ is on the sheet that the ray sees.
-    fn same_sheet(&self, ray: &Ray, look: &Look, other: f64) -> bool;
 
     /// Its height over (x, z), scene units, where it has one.
     fn height(&self, x: f64, z: f64) -> Option<f64>;

@@ -42,8 +42,8 @@ pub enum PlanError {
     },
     /// The eye is below the surface.
     #[error(
-        "camera.position: the eye is at height {eye:.6}, the ground under it at {ground:.6}: it \
-         would look from under the ground; raise y above {ground:.6}"
+        "camera.position: the eye is at height {}, the ground under it at {1}: it would look from \
+         under the ground; raise y above {1}", told_apart(*eye, *ground).0, told_apart(*eye, *ground).1
     )]
     EyeUnderGround {
         /// Height of the eye, scene units.
@@ -125,6 +125,21 @@ impl Plan {
             words::choose(scene, &geometry, full)?;
         Ok(Self { screen, geometry, words, surfaces, full, words_why, not_proved })
     }
+}
+
+/// An eye and a higher ground with so many decimals that they differ, the ground rounded up, so that
+/// an eye at that height is not under it.
+fn told_apart(eye: f64, ground: f64) -> (String, String) {
+    const MOST: usize = 17;
+    let at = |places: usize| {
+        let step = libm::pow(10.0, -(places as f64));
+        let mut up = format!("{ground:.places$}");
+        if up.parse().is_ok_and(|shown: f64| shown < ground) {
+            up = format!("{:.places$}", ground + step / 2.0);
+        }
+        (format!("{eye:.places$}"), up)
+    };
+    (6..MOST).map(at).find(|(eye, ground)| eye != ground).unwrap_or_else(|| at(MOST))
 }
 
 /// A shift that leaves no bit of any word.

@@ -4,6 +4,7 @@
 //! the same picture.
 
 mod ramp;
+mod reason;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -33,6 +34,8 @@ pub struct Framing {
     pub georeference: Georeference,
     /// What was chosen and assumed, a sentence each.
     pub chosen: Vec<String>,
+    /// The camera is not the chosen one.
+    own_camera: bool,
     /// Where the paths in the scene start.
     folder: PathBuf,
 }
@@ -97,7 +100,13 @@ pub fn read(paths: &[&Path], sets: &[String], wishes: &Wishes) -> Result<Framing
     let HeightFile { map, georeference, every, mut notes, .. } = file;
     let view = View::new(&map, &georeference, wishes.size.unwrap_or(SIZE))
         .map_err(|(reason, remedy)| unreadable(path, reason, remedy))?;
-    notes.extend(view.reasons.iter().cloned());
+    if reason::is_set(sets, "surface.map") {
+        // Another map is drawn: nothing that was found or chosen is about it.
+        notes.clear();
+    } else {
+        let reasons = view.reasons.iter().filter(|reason| reason.holds(sets));
+        notes.extend(reasons.map(|reason| reason.text.clone()));
+    }
     let source = MapSource {
         file: name.to_owned(),
         tiles,
@@ -115,7 +124,8 @@ pub fn read(paths: &[&Path], sets: &[String], wishes: &Wishes) -> Result<Framing
         text: &write::toml(&view.scene(&known), name),
     };
     let scene = parse_with(&document, sets, Some(&known))?;
-    Ok(Framing { scene, georeference, chosen: notes, folder: folder.to_owned() })
+    let own_camera = reason::is_set(sets, "camera");
+    Ok(Framing { scene, georeference, chosen: notes, own_camera, folder: folder.to_owned() })
 }
 
 impl Framing {
@@ -124,28 +134,47 @@ impl Framing {
     /// # Errors
     /// If no path leads from there to the map.
     pub fn file(&self, scene: &Scene, target: &Path) -> Result<String, SceneError> {
-        let mut top = vec![
-            "Chosen by terraline for a height file: the whole map from above one of its sides. \
-             Lengths in scene units, angles in degrees; x east, y up, z south."
-                .to_owned(),
-        ];
-        top.extend(self.chosen.iter().map(|reason| format!("Note: {reason}.")));
-        let map = match scene.terrain() {
-            Some(terrain) if !terrain.source.is_built_in() => {
-                let map = self.folder.join(&terrain.source.file);
-                relative(&map, target).ok_or_else(|| SceneError::Unreadable {
-                    file: shown_path(target),
-                    reason: format!(
-                        "no path of UTF-8 text leads from here to {}",
-                        shown_path(&map)
-                    ),
-                    remedy: "write the scene into the folder of the height file".to_owned(),
-                })?
-            }
-            _ => String::new(),
+        let view = if self.own_camera {
+            "with another camera"
+        } else {
+            "the whole map from above one of its sides"
         };
-        Ok(write::commented(scene, &map, &top))
+        let mut top = vec![format!("Chosen by terraline for a height file: {view}. {UNITS}")];
+        top.extend(self.chosen.iter().map(|reason| format!("Note: {reason}.")));
+        written(scene, &self.folder, target, &top)
     }
+}
+
+/// A scene with its options, as a file at `target` that draws the same picture. Relative paths in the
+/// scene start at `folder`.
+///
+/// # Errors
+/// If no path leads from the target to the map.
+pub fn file(scene: &Scene, folder: &Path, target: &Path) -> Result<String, SceneError> {
+    let top = format!("Written by terraline, with the options of its command. {UNITS}");
+    written(scene, folder, target, &[top])
+}
+
+const UNITS: &str = "Lengths in scene units, angles in degrees; x east, y up, z south.";
+
+fn written(
+    scene: &Scene,
+    folder: &Path,
+    target: &Path,
+    top: &[String],
+) -> Result<String, SceneError> {
+    let map = match scene.terrain() {
+        Some(terrain) if !terrain.source.is_built_in() => {
+            let map = folder.join(&terrain.source.file);
+            relative(&map, target).ok_or_else(|| SceneError::Unreadable {
+                file: shown_path(target),
+                reason: format!("no path of UTF-8 text leads from here to {}", shown_path(&map)),
+                remedy: "write the scene into the folder of the height file".to_owned(),
+            })?
+        }
+        _ => String::new(),
+    };
+    Ok(write::commented(scene, &map, top))
 }
 
 /// How the file is to be read: the map is read before the options are applied. Values that make no

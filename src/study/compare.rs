@@ -66,23 +66,35 @@ pub enum Comparison {
 }
 
 impl Comparison {
-    /// True if no value differs by more than `max_difference` (levels of 255 in pictures, the
-    /// units of each array in buffers), no value is finite or NaN on one side only, and no array
-    /// is missing on one side but those that not every engine gives.
-    pub fn is_within(&self, max_difference: f64) -> bool {
+    /// What differs by more than `max_difference` (levels of 255 in pictures, the units of each
+    /// array in buffers), a few words each: also values that are finite or NaN on one side only,
+    /// and arrays that are missing on one side, but for those that not every engine gives.
+    pub fn beyond(&self, max_difference: f64) -> Vec<String> {
         match self {
-            Self::Picture(picture) => f64::from(picture.max_difference) <= max_difference,
+            Self::Picture(picture) => (f64::from(picture.max_difference) > max_difference)
+                .then(|| format!("a channel differs by {}", picture.max_difference))
+                .into_iter()
+                .collect(),
             Self::Buffers(buffers) => {
-                let close =
-                    |a: &ArrayComparison| a.max_difference <= max_difference && a.unmatched == 0;
-                let of_all = |name: &String| {
-                    let row = TABLE.iter().find(|row| row.name == name);
-                    row.is_none_or(|row| row.giver == Giver::Engines)
+                let array = |a: &ArrayComparison| match (a.unmatched, a.max_difference) {
+                    (0, difference) if difference <= max_difference => None,
+                    (0, difference) => Some(format!("{} differs by {difference:e}", a.name)),
+                    (count, _) => Some(format!("{} is finite on one side only, {count} times", a.name)),
                 };
-                !buffers.only_in_a.iter().chain(&buffers.only_in_b).any(of_all)
-                    && buffers.arrays.iter().all(close)
+                let missing = |names: &[String], which: &str| -> Vec<String> {
+                    let names = names.iter().filter(|name| !buffers.not_counted.contains(name));
+                    names.map(|name| format!("{name} is only in the {which}")).collect()
+                };
+                let arrays = buffers.arrays.iter().filter_map(array);
+                let only_in_a = missing(&buffers.only_in_a, "first");
+                arrays.chain(only_in_a).chain(missing(&buffers.only_in_b, "second")).collect()
             }
         }
+    }
+
+    /// Whether nothing is [`beyond`](Self::beyond) a difference.
+    pub fn is_within(&self, max_difference: f64) -> bool {
+        self.beyond(max_difference).is_empty()
     }
 }
 
@@ -97,6 +109,8 @@ pub struct PictureComparison {
     pub identical: bool,
     /// Largest difference in a channel.
     pub max_difference: u8,
+    /// 95 % of the pixels that differ do so by no more than this; 0 where none does.
+    pub p95_difference: u8,
     /// Root of the mean square over pixels and channels.
     pub rms: f64,
     /// `20 log10(255 / rms)`; infinite for identical pictures (null in JSON).
@@ -139,6 +153,8 @@ pub struct BufferComparison {
     pub only_in_a: Vec<String>,
     /// Names of arrays that only the second has.
     pub only_in_b: Vec<String>,
+    /// Those of them that no maximum is asked of, since not every engine gives them.
+    pub not_counted: Vec<String>,
 }
 
 /// Differences between two arrays, in their own unit. NaN equals NaN.
@@ -208,6 +224,7 @@ pub fn compare_pictures(a: &Image, b: &Image) -> Result<PictureComparison, Compa
     same_size(a, b)?;
     let (mut squares, mut differing_pixels) = (0_u64, 0);
     let (mut first, mut worst) = (None, None::<PixelDifference>);
+    let mut counts = [0_usize; 256];
     for (place, (&p, &q)) in a.pixels.iter().zip(&b.pixels).enumerate() {
         if p == q {
             continue;
@@ -221,6 +238,7 @@ pub fn compare_pictures(a: &Image, b: &Image) -> Result<PictureComparison, Compa
             difference: apart[0].max(apart[1]).max(apart[2]),
         };
         differing_pixels += 1;
+        counts[usize::from(pixel.difference)] += 1;
         squares += apart.iter().map(|&d| u64::from(d) * u64::from(d)).sum::<u64>();
         first.get_or_insert(pixel);
         if worst.is_none_or(|worst| pixel.difference > worst.difference) {
@@ -228,12 +246,18 @@ pub fn compare_pictures(a: &Image, b: &Image) -> Result<PictureComparison, Compa
         }
     }
     let pixels = a.pixels.len();
+    let mut below = 0;
+    let p95_difference = (0..=u8::MAX).find(|&difference| {
+        below += counts[usize::from(difference)];
+        20 * below >= 19 * differing_pixels
+    });
     let rms = (squares as f64 / (3 * pixels).max(1) as f64).sqrt();
     Ok(PictureComparison {
         columns: a.columns,
         lines: a.lines,
         identical: differing_pixels == 0,
         max_difference: worst.map_or(0, |worst| worst.difference),
+        p95_difference: p95_difference.unwrap_or_default(),
         rms,
         psnr_db: 20.0 * libm::log10(255.0 / rms),
         ssim: ssim(a.columns, a.lines, &a.pixels, &b.pixels),
@@ -255,10 +279,9 @@ pub fn difference_picture(a: &Image, b: &Image, gain: u32) -> Result<Image, Comp
     Ok(Image { columns: a.columns, lines: a.lines, pixels })
 }
 
-/// Largest power of two by which differences up to `max_difference` can be multiplied within
-/// 255; 1 for no differences.
-pub fn gain(max_difference: u8) -> u32 {
-    255_u32.checked_div(max_difference.into()).map_or(1, |most| 1 << most.ilog2())
+/// Largest factor by which differences up to `difference` can be multiplied within 255; 1 for none.
+pub fn gain(difference: u8) -> u32 {
+    255_u32.checked_div(difference.into()).unwrap_or(1)
 }
 
 fn same_size(a: &Image, b: &Image) -> Result<(), CompareError> {
@@ -292,7 +315,12 @@ pub fn compare_buffers<R: Read + Seek, S: Read + Seek>(
     let identical = only_in_a.is_empty()
         && only_in_b.is_empty()
         && arrays.iter().all(|array| array.differing == 0);
-    Ok(BufferComparison { identical, arrays, only_in_a, only_in_b })
+    let by_some = |name: &&String| {
+        let row = TABLE.iter().find(|row| row.name == **name);
+        row.is_some_and(|row| row.giver != Giver::Engines)
+    };
+    let not_counted = only_in_a.iter().chain(&only_in_b).filter(by_some).cloned().collect();
+    Ok(BufferComparison { identical, arrays, only_in_a, only_in_b, not_counted })
 }
 
 fn compare_arrays<R: Read + Seek, S: Read + Seek>(

@@ -40,6 +40,8 @@ pub struct Row {
     pub error: Option<f64>,
     /// Derived bound of the error, where there is one.
     pub bound: Option<f64>,
+    /// The error is larger than its bound: a register overflowed, or a bound does not hold.
+    pub beyond_bound: bool,
     /// Numbers of its equations in docs/mathematics.md.
     pub equations: &'static str,
 }
@@ -69,6 +71,11 @@ pub struct Explanation {
     pub color: [u8; 3],
     /// sRGB bytes: oracle.
     pub oracle_color: [u8; 3],
+    /// Power of two on the view registers, `V 2^e_V` (equation 6; thesis 2.37).
+    pub view_exponent: i32,
+    /// Power of two on the denominator, `D 2^e_D` (equation 9; thesis 2.39); none where nothing is
+    /// divided.
+    pub denominator_exponent: Option<i32>,
     /// Why the ray ended at the divider, if it did.
     pub turned_away: Option<&'static str>,
     /// What a hole of the map has to do with the end of the ray, if anything.
@@ -104,6 +111,8 @@ impl Machine<'_> {
                 let register = reading.quantity.register();
                 let format = fixed.formats[register as usize];
                 let real_value = real.value(reading.quantity);
+                let error = real_value.map(|real| reading.value - real);
+                let bound = bound(&fixed, reading, &closed.coefficients, column, line);
                 Row {
                     unit: reading.unit,
                     what: reading.quantity.to_string(),
@@ -113,8 +122,9 @@ impl Machine<'_> {
                     value: reading.value,
                     real: real_value,
                     oracle: closed.value(reading.quantity),
-                    error: real_value.map(|real| reading.value - real),
-                    bound: bound(&fixed, reading, &closed.coefficients, column, line),
+                    error,
+                    bound,
+                    beyond_bound: error.zip(bound).is_some_and(|(e, bound)| e.abs() > bound),
                     equations: table::row(register).equations,
                 }
             })
@@ -131,6 +141,12 @@ impl Machine<'_> {
             bisection_steps: fixed.work.bisection_steps,
             color: fixed.color,
             oracle_color: sighting.color,
+            view_exponent: closed.coefficients.view_exponent,
+            denominator_exponent: closed
+                .coefficients
+                .projection
+                .divides
+                .then_some(closed.coefficients.denominator_exponent),
             turned_away: fixed.turned_away,
             hole: fixed.hole,
             rows,

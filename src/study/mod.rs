@@ -2,6 +2,7 @@
 //! [`Machine`](crate::engine::Machine).
 
 pub mod bounds;
+pub mod caution;
 pub mod compare;
 pub mod cost;
 pub mod error;

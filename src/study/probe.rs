@@ -52,7 +52,7 @@ impl Machine<'_> {
                 point: matches!(hit, Hit::Surface | Hit::Side).then(|| buffers.point(at)),
                 steps: buffers.steps[at],
                 cycles: band.cycles[at],
-                error_px: Some(error.total_px).filter(|error| !error.is_nan()),
+                error_px: Some(error.total_px).filter(|error| error.is_finite()),
                 sheet: error.sheet,
             })
         }))

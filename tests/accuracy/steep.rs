@@ -24,7 +24,7 @@ fn cliff(top: f32) -> Scene {
 fn the_bisection_follows_the_slope() {
     let scene = cliff(6000.0);
     let report = errors(&scene, 40);
-    assert!(report.same_sheet > 500);
+    assert!(report.counts.same_sheet > 500);
     let total = report.total_px.expect("pixels");
     // A step to 1/64 of a pixel alone, without regard to the slope, is 12 pixels off in the median.
     assert!(total.median < 1.5 && total.max < 4.0, "{total:?}");

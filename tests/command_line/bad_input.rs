@@ -112,8 +112,6 @@ fn height_files_that_are_none() {
             assert!(refused(&folder, &["info", file]).contains(file));
         }
     }
-    let scene_out = ["--scene-out", "scene.toml"];
-    render(&folder, &[&["flight"], &scene_out[..]].concat(), &["--scene-out", "scenes NAME"]);
     render(&folder, &["sound.asc", "--scene-out", "out.png"], &["--scene-out", "same file"]);
     render(&folder, &["sound.asc", "--scene-out", "sound.asc"], &["sound.asc", "overwritten"]);
     render(&folder, &["sound.asc", "--scene-out", "no/scene.toml"], &["no folder"]);

@@ -278,3 +278,44 @@ fn packed_files_are_drawn_as_they_are_described() {
     };
     assert_eq!(message("info"), message("render"));
 }
+
+#[test]
+fn notes_follow_the_options() {
+    let folder = Folder::new();
+    // Flat, with a hole.
+    let height = |i, j| if (i, j) == (7, 7) { -9999.0 } else { (i + j) as f64 / 9.0 };
+    folder.write("dem.asc", grid(50, 40, 30.0, 500_000.0, height));
+    let chosen = |options: &[&str]| {
+        let render = ["render", "dem.asc", "--size", "64x40", "--sample", "0"];
+        folder.json(&[&render, options].concat())["chosen"].to_string()
+    };
+    let all = chosen(&[]);
+    for (sets, gone) in [
+        (&["surface.nodata=nearest"][..], &["holes"][..]),
+        (&["surface.0.nodata=nearest"], &["holes"]),
+        (&["surface.height.scale=0.01"], &["times life size", "unit of heights is not stated"]),
+        (&["surface.height={ offset = 0, scale = 0.01 }"], &["times life size"]),
+        (&["surface.cell=[1, 2]"], &["times life size"]),
+        (&["unit_m=7"], &["times life size"]),
+        (
+            &["surface.map=builtin:jacksboro", "camera.position=[20, 900, 60]"],
+            &["times life size", "holes"],
+        ),
+    ] {
+        let options: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
+        let left = chosen(&options);
+        for words in gone {
+            assert!(all.contains(words), "no {words:?} in {all}");
+            assert!(!left.contains(words), "{sets:?}: {left}");
+        }
+    }
+    let left = chosen(&["--set", "surface.nodata=nearest"]);
+    assert!(left.contains("times life size"), "{left}");
+    let out = ["--size", "64x40", "--sample", "0", "--scene-out"];
+    folder.prints(&[&["render", "dem.asc"], &out[..], &["a.toml"]].concat());
+    folder.prints(
+        &[&["render", "dem.asc", "--set", "camera.pitch=-50"], &out[..], &["b.toml"]].concat(),
+    );
+    let [a, b] = ["a.toml", "b.toml"].map(|name| String::from_utf8(folder.read(name)).unwrap());
+    assert!(a.contains("from above one of its sides") && !b.contains("from above one of"));
+}

@@ -167,3 +167,42 @@ fn overflows_are_located() {
         assert_eq!((&overflow["line"], &overflow["column"]), (&8.into(), &0.into()));
     }
 }
+
+#[test]
+fn scenes_are_written_with_their_options() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("maps")).unwrap();
+    std::fs::create_dir(folder.path("out")).unwrap();
+    write_map(&folder.path("maps/map.png"), 20, 20, |i, j| (i * 700 + j * 300) as u16);
+    folder.write(
+        "maps/scene.toml",
+        scene_over("map.png", "sky") + "\n[[screen]]\nname = \"left\"\nsize = [30, 20]\nfov = 20\n",
+    );
+    let formats = ["--format", "ground=16.8:stochastic", "--set", "seed=7"];
+    const OWN_MAP: [&str; 6] = [
+        "--set",
+        "surface.map=maps/map.png",
+        "--set",
+        "surface.height.scale=0.0005",
+        "--set",
+        "camera.position=[9, 20, -5]",
+    ];
+    for (scene, options) in [
+        ("overview", &["--set", "camera.pitch=-31.7", "--set", "kernel.shape=hat"][..]),
+        ("flight", &["--size", "50x30", "--set", "light.direction=[1, 2, 0.3]"]),
+        ("plane", &["--set", "surface.checker=3.3", "--set", "camera.roll=12.1"]),
+        ("valley", &formats),
+        ("overview", &OWN_MAP),
+        ("maps/scene.toml", &["--set", "camera.position=[3.0, 40.0, 4.1]"]),
+        ("maps/scene.toml", &["--screen", "left"]),
+    ] {
+        let small: &[&str] = if scene.starts_with("maps") { &[] } else { &["--size", "64x48"] };
+        let small = if options.contains(&"--size") { &[] } else { small };
+        let out = ["-o", "a.png", "--sample", "0", "--scene-out", "out/written.toml"];
+        folder.prints(&[&["render", scene], options, small, &out].concat());
+        folder.prints(&["render", "out/written.toml", "--sample", "0", "-o", "b.png"]);
+        assert_eq!(folder.read("a.png"), folder.read("b.png"), "{scene} {options:?}");
+        folder.prints(&["render", scene, "--sample", "0", "-o", "plain.png", "--size", "64x48"]);
+        assert_ne!(folder.read("a.png"), folder.read("plain.png"), "{scene} {options:?}");
+    }
+}

@@ -143,8 +143,12 @@ fn units_of_heights() {
     let depths = [&projected[..], &[(4096, 5715)]].concat();
     says(&read(&with_keys(file(), &depths, &[], &[]).bytes(), "d.tif"), "counts downwards");
     let feet = read(&with_keys(file(), &[(1024, 1), (3072, 2227)], &[], &[]).bytes(), "f.tif");
-    says(&feet, "heights is not stated: metres are assumed, though coordinates are US survey feet");
-    says(&feet, "--height-unit");
+    let remark = feet.georeference.height_unit_remark().unwrap();
+    assert!(
+        remark.contains("metres are assumed, though coordinates are US survey feet"),
+        "{remark}"
+    );
+    assert!(remark.contains("--height-unit"), "{remark}");
 }
 
 #[test]

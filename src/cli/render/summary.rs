@@ -4,12 +4,13 @@ use serde::Serialize;
 
 use super::super::report;
 use super::super::scene_args::Planned;
+use super::errors::{self, Pointed};
 use super::{Drawn, Render, Stop};
 use crate::engine::Engine;
 use crate::frame::Hit;
 use crate::plan::units::UnitPlan;
 use crate::study::cost::Cost;
-use crate::study::error::{ErrorReport, Sample, Spread};
+use crate::study::error::{ErrorReport, Sample};
 
 /// Lines whose cycles and operations the summary counts.
 const COST_LINES: u32 = 32;
@@ -40,14 +41,6 @@ struct Located {
     column: u32,
 }
 
-#[derive(Serialize)]
-struct Worst {
-    column: u32,
-    line: u32,
-    error_px: f64,
-    explain: String,
-}
-
 /// The fields of `render --json`.
 #[derive(Serialize)]
 pub(super) struct Summary {
@@ -68,7 +61,8 @@ pub(super) struct Summary {
     cost: Cost,
     overflows: Vec<Located>,
     errors: Option<ErrorReport>,
-    worst: Option<Worst>,
+    worst: Option<Pointed>,
+    cautions: Vec<String>,
     chosen: Vec<String>,
 }
 
@@ -87,22 +81,12 @@ impl Render {
         let refused = |error| planned.refused(&error);
         let cost = machine.cost(cycles, &lines).map_err(refused)?;
         let fixed = matches!(self.engine, Engine::Fast | Engine::Processor);
-        let errors = if fixed && self.sample > 0 {
-            let sample = Sample::strips(plan, self.sample, scene.seed);
-            let pixels = machine.errors(&sample).map_err(refused)?;
-            Some(ErrorReport::new(&sample, &pixels, scene.unit_m))
-        } else {
-            None
+        let errors = match fixed {
+            true => self.sample.measure(machine).map_err(refused)?,
+            false => None,
         };
-        let worst = errors.as_ref().and_then(|errors| {
-            let (column, line) = errors.worst?;
-            Some(Worst {
-                column,
-                line,
-                error_px: errors.total_px?.max,
-                explain: format!("terraline explain {invocation} --pixel {column},{line}"),
-            })
-        });
+        let overflow = drawn.band.overflows.registers.first();
+        let worst = Pointed::new(errors.as_ref(), overflow, invocation);
         Ok(Summary {
             engine: self.engine.name(),
             world: match self.engine {
@@ -151,6 +135,7 @@ impl Render {
                 .collect(),
             errors,
             worst,
+            cautions: machine.cautions(),
             chosen: framing.as_ref().map_or_else(Vec::new, |framing| framing.chosen.clone()),
         })
     }
@@ -168,6 +153,7 @@ impl Render {
             summary.world_why
         )];
         out.extend(report::not_proved(&summary.not_proved));
+        out.extend(report::cautions(&summary.cautions));
         let fitted: Vec<_> =
             summary.units.iter().filter(|unit| unit.fitted).map(|unit| unit.name).collect();
         out.push(format!("  fitted    {}", fitted.join(", ")));
@@ -227,18 +213,10 @@ impl Render {
             ));
         }
         match &summary.errors {
-            Some(errors) => out.extend(error_lines(errors)),
+            Some(errors) => out.extend(errors::lines(errors, &planned.invocation)),
             None => out.push("  error     not measured".into()),
         }
-        if let Some(worst) = &summary.worst {
-            out.push(format!(
-                "  worst     column {}, line {}: {} pixels off; {}",
-                worst.column,
-                worst.line,
-                digits(worst.error_px),
-                worst.explain
-            ));
-        }
+        out.extend(summary.worst.as_ref().map(Pointed::line));
         for chosen in planned.framing.iter().flat_map(|framing| &framing.chosen) {
             out.push(format!("  chosen    {chosen}"));
         }
@@ -247,45 +225,4 @@ impl Render {
         }
         out.join("\n")
     }
-}
-
-fn error_lines(errors: &ErrorReport) -> Vec<String> {
-    let row = |name: &str, px: Option<Spread>, m: Option<Spread>| {
-        let digits = report::digits;
-        let (Some(px), Some(m)) = (px, m) else {
-            return format!("            {name:<13} no pixel on the same sheet");
-        };
-        format!(
-            "            {name:<13} {:>9} {:>9} {:>9} px {:>9} {:>9} {:>9} m",
-            digits(px.median),
-            digits(px.p999),
-            digits(px.max),
-            digits(m.median),
-            digits(m.p999),
-            digits(m.max)
-        )
-    };
-    let beyond = match errors.beyond {
-        0 => String::new(),
-        count => format!(", {count} out of range"),
-    };
-    vec![
-        format!(
-            "  error     against the oracle on {} pixels (a grid of {} lines x {} columns): {} on \
-             the same sheet, {} silhouettes{beyond}",
-            errors.pixels,
-            errors.sampled_lines,
-            errors.sampled_columns,
-            errors.same_sheet,
-            errors.silhouettes
-        ),
-        format!(
-            "            {:<13} {:>9} {:>9} {:>9}    {:>9} {:>9} {:>9}",
-            "", "median", "99.9 %", "max", "median", "99.9 %", "max"
-        ),
-        row("total", errors.total_px, errors.total_m),
-        row("algorithm", errors.algorithm_px, errors.algorithm_m),
-        row("quantisation", errors.quantisation_px, errors.quantisation_m),
-        format!("            colour within 2 levels on {:.2} %", 100.0 * errors.color_within_2),
-    ]
 }

@@ -10,13 +10,13 @@ use crate::oracle::shade;
 use crate::scene::Plane;
 
 impl Seen for Plane {
-    fn sight(&self, ray: &Ray, look: &Look) -> Sighting {
+    fn sight_beside(&self, ray: &Ray, look: &Look, others: [f64; 2]) -> (Sighting, [bool; 2]) {
         let Some(lambda) = plane_lambda(self, ray) else {
-            return Sighting::miss(&look.colors, Hit::Sky, false);
+            return (Sighting::miss(&look.colors, Hit::Sky, false), [false; 2]);
         };
         let point = ray.at(lambda);
         let contrast = shade::plane_contrast(self, ray, look.grain);
-        Sighting {
+        let sighting = Sighting {
             hit: Hit::Surface,
             lambda,
             point,
@@ -24,16 +24,13 @@ impl Seen for Plane {
             color: shade::plane_color(&look.colors, self, point, contrast),
             surface: 0,
             tangent: false,
-        }
+        };
+        (sighting, others.map(|other| other.is_finite() && other >= 0.0))
     }
 
     fn crossings(&self, ray: &Ray, from: f64, to: f64) -> usize {
         let lambda = plane_lambda(self, ray);
         usize::from(lambda.is_some_and(|lambda| from < lambda && lambda < to))
-    }
-
-    fn same_sheet(&self, ray: &Ray, _: &Look, other: f64) -> bool {
-        plane_lambda(self, ray).is_some() && other.is_finite() && other >= 0.0
     }
 
     fn height(&self, x: f64, z: f64) -> Option<f64> {

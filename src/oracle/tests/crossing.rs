@@ -258,7 +258,7 @@ fn check_sheets(oracle: &Oracle, (line, column): (f64, f64), inside: &[bool], st
     if sighting.tangent || sighting.lambda < (first - 1) as f64 * step {
         return false;
     }
-    let same = |n: usize| oracle.same_sheet(line, column, n as f64 * step);
+    let same = |n: usize| oracle.pixel_beside(line, column, [n as f64 * step, f64::NAN]).1[0];
     assert!(same(first) && same(first - 1) && same(1));
     let length = inside[first..].iter().position(|&inside| !inside);
     if let Some(length) = length {
@@ -274,6 +274,6 @@ fn check_sheets(oracle: &Oracle, (line, column): (f64, f64), inside: &[bool], st
             assert!(same(first + length - 1));
         }
     }
-    assert!(!oracle.same_sheet(line, column, f64::NAN));
+    assert_eq!(oracle.pixel_beside(line, column, [f64::NAN; 2]).1, [false; 2]);
     length.is_some()
 }

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::ramp;
+use super::reason::Reason;
 use crate::scene::camera::{Angles, Attitude, Camera};
 use crate::scene::height_map::{Georeference, HeightMap};
 use crate::scene::light::{Colors, Light};
@@ -62,7 +63,7 @@ pub(super) struct View {
     size: (u32, u32),
     ramp: Vec<[u8; 3]>,
     /// What was chosen, a sentence each.
-    pub(super) reasons: Vec<String>,
+    pub(super) reasons: Vec<Reason>,
 }
 
 /// A number of few digits, so that the scene file reads well.
@@ -98,12 +99,16 @@ impl View {
         let known = georeference.cell_m(columns, rows);
         let cell_m = known.unwrap_or(DVec2::splat(ASSUMED_CELL_M));
         if known.is_none() {
-            reasons.push(format!(
+            let text = format!(
                 "the size of a cell is not known: {ASSUMED_CELL_M} m x {ASSUMED_CELL_M} m are \
                  assumed (surface.cell, unit_m)"
-            ));
+            );
+            reasons.push(Reason::new(&["surface.cell", "unit_m"], text));
         }
         let height_unit_m = georeference.height_unit_m.unwrap_or(1.0);
+        if let Some(text) = georeference.height_unit_remark() {
+            reasons.push(Reason::new(&["surface.height.scale"], text));
+        }
 
         let unit_m = neat((cell_m.x * cell_m.y).sqrt());
         let cell = DVec2::new(neat(cell_m.x / unit_m), neat(cell_m.y / unit_m));
@@ -122,8 +127,8 @@ impl View {
         let outline = outline(map, cell, -base_depth, height);
         let position = overlooking(&outline, top, heading, size);
         let (ramp, sea) = ramp::choose(map, height_unit_m);
-        reasons.extend(sea);
-        reasons.extend(holes(map));
+        reasons.extend(sea.map(|text| Reason::new(&["color.ramp"], text)));
+        reasons.extend(holes(map).map(|text| Reason::new(&["surface.nodata"], text)));
         Ok(Self {
             unit_m,
             cell,
@@ -186,14 +191,18 @@ fn cells(map: &HeightMap) -> (f64, f64) {
     ((map.columns() - 1) as f64, (map.rows() - 1) as f64)
 }
 
+/// Keys that an exaggeration is made of.
+const SCALES: [&str; 3] = ["surface.height.scale", "surface.cell", "unit_m"];
+
 /// The vertical exaggeration for a height range given as a share of the map's longer side.
-fn exaggeration(share: f64, known: bool, reasons: &mut Vec<String>) -> f64 {
+fn exaggeration(share: f64, known: bool, reasons: &mut Vec<Reason>) -> f64 {
     if share > if known { NEEDLES } else { GUESSED_NEEDLES } {
         let lowered = neat(LOWERED / share);
-        reasons.push(format!(
+        let text = format!(
             "the height range is {share:.1} times the map's longer side, as if units were not what they \
              seem: heights are drawn {lowered} times as high (surface.height.scale)"
-        ));
+        );
+        reasons.push(Reason::new(&SCALES, text));
         return lowered;
     }
     if share >= FLAT || share <= 0.0 {
@@ -204,11 +213,12 @@ fn exaggeration(share: f64, known: bool, reasons: &mut Vec<String>) -> f64 {
     let chosen = STEPS.into_iter().min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
     let chosen = chosen.unwrap_or(1.0);
     if chosen != 1.0 {
-        reasons.push(format!(
+        let text = format!(
             "the height range is {:.2} % of the map's longer side: heights are drawn {chosen} times life \
              size (surface.height.scale)",
             100.0 * share
-        ));
+        );
+        reasons.push(Reason::new(&SCALES, text));
     }
     chosen
 }

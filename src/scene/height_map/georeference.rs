@@ -148,19 +148,23 @@ impl Georeference {
             }
             self.height_unit_m = Some(unit_m);
         }
-        if self.height_unit_m.is_none() {
-            let plan = match self.coordinates {
-                Coordinates::Lengths { unit_m } if unit_m != 1.0 => {
-                    format!(", though coordinates are {}", unit::name(unit_m))
-                }
-                _ => String::new(),
-            };
-            notes.push(format!(
+        notes.extend(self.ground_remark(columns, rows));
+    }
+
+    /// The sentence for a file that does not state the unit of heights.
+    pub fn height_unit_remark(&self) -> Option<String> {
+        let plan = match self.coordinates {
+            Coordinates::Lengths { unit_m } if unit_m != 1.0 => {
+                format!(", though coordinates are {}", unit::name(unit_m))
+            }
+            _ => String::new(),
+        };
+        self.height_unit_m.is_none().then(|| {
+            format!(
                 "the unit of heights is not stated: metres are assumed{plan} (--height-unit ft, or \
                  another, settles it)"
-            ));
-        }
-        notes.extend(self.ground_remark(columns, rows));
+            )
+        })
     }
 
     /// Where the file gives a grid but not what its coordinates count: what is likelier of degrees

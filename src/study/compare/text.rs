@@ -23,8 +23,8 @@ impl fmt::Display for PictureComparison {
         writeln!(f, "{} differ ({:.3} %)", self.differing_pixels, 100.0 * self.differing_share)?;
         writeln!(
             f,
-            "difference: max {}, RMS {:.4}, PSNR {:.2} dB",
-            self.max_difference, self.rms, self.psnr_db
+            "difference: max {}, 95 % of the pixels that differ within {}, RMS {:.4}, PSNR {:.2} dB",
+            self.max_difference, self.p95_difference, self.rms, self.psnr_db
         )?;
         match self.ssim {
             Some(ssim) => writeln!(f, "SSIM: {ssim:.6}")?,
@@ -51,6 +51,9 @@ impl fmt::Display for BufferComparison {
         for (names, which) in [(&self.only_in_a, "first"), (&self.only_in_b, "second")] {
             for name in names {
                 write!(f, "\n{name}: only in the {which}")?;
+                if self.not_counted.contains(name) {
+                    f.write_str(", which no --max-diff counts: not every engine gives it")?;
+                }
             }
         }
         Ok(())

@@ -19,6 +19,7 @@ pub fn text(scene: &str, world: &str, e: &Explanation) -> String {
             "colour {:?}, oracle {:?}. Numbers on the right: equations of docs/mathematics.md",
             e.color, e.oracle_color
         ),
+        exponents(e),
         String::new(),
         format!(
             "{:<22} {:<9} {:>14} {:>16} {:>16} {:>16} {:>10} {:>10}  eq.",
@@ -33,6 +34,11 @@ pub fn text(scene: &str, world: &str, e: &Explanation) -> String {
         }
         out.push(line_of(row));
     }
+    let beyond: Vec<&str> =
+        e.rows.iter().filter(|row| row.beyond_bound).map(|row| row.what.as_str()).collect();
+    if !beyond.is_empty() {
+        out.push(format!("beyond their bounds (marked !): {}", beyond.join(", ")));
+    }
     if let Some(why) = e.turned_away {
         out.push(format!("the ray ends at the divider: {why}"));
     }
@@ -42,12 +48,21 @@ pub fn text(scene: &str, world: &str, e: &Explanation) -> String {
     out.join("\n")
 }
 
+/// The powers of two that the view registers are scaled by.
+fn exponents(e: &Explanation) -> String {
+    let view = format!("view registers hold V 2^{} (equation 6)", e.view_exponent);
+    match e.denominator_exponent {
+        Some(exponent) => format!("{view}, the denominator D 2^{exponent} (equation 9)"),
+        None => view,
+    }
+}
+
 fn line_of(row: &Row) -> String {
     let optional = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or("".into(), text);
     let exact = |value: f64| format!("{value:.9}");
     let small = |value: f64| format!("{value:.1e}");
     format!(
-        "{:<22} {:<9} {:>14} {:>16} {:>16} {:>16} {:>10} {:>10}  {}",
+        "{:<22} {:<9} {:>14} {:>16} {:>16} {:>16} {:>10} {:>10} {} {}",
         row.what,
         row.format,
         row.raw.map_or(String::new(), |raw| raw.to_string()),
@@ -56,6 +71,7 @@ fn line_of(row: &Row) -> String {
         optional(row.oracle, &exact),
         optional(row.error, &small),
         optional(row.bound, &small),
+        if row.beyond_bound { "!" } else { " " },
         row.equations
     )
 }

@@ -146,8 +146,12 @@ fn probe(probe: &Probe) -> Vec<String> {
     });
     items.push(match (probe.error_px, probe.sheet) {
         (Some(error), _) => format!("error {} px", figure(error)),
-        (None, Sheet::Silhouette) => "silhouette: the oracle sees another sheet".into(),
-        (None, Sheet::Beyond) => "beyond the registers".into(),
+        (None, Sheet::Lost) if probe.hit == Hit::Surface => {
+            "lost: the oracle sees another sheet".into()
+        }
+        (None, Sheet::Lost) => "lost: the oracle sees the surface".into(),
+        (None, Sheet::Ghost) => "ghost: the oracle sees no surface".into(),
+        (None, Sheet::Flip) => "the oracle says otherwise".into(),
         (None, _) => "as the oracle".into(),
     });
     items

@@ -2,6 +2,8 @@
 
 #[path = "window/display.rs"]
 mod display;
+#[path = "window/flight.rs"]
+mod flight;
 #[path = "window/golden.rs"]
 mod golden;
 #[path = "window/scan.rs"]
@@ -319,7 +321,7 @@ proptest! {
             prop::sample::select(vec![
                 "w", "s", "a", "d", "e", "q", "W", "1", "2", "3", "4", "5", "6", "shift+1",
                 "shift+5", "shift+6", "g", "G", "k", "j", "[", "]", "/", "space", ".", "+", "-",
-                "-", "h", "tab", "r", "left", "right", "up", "down", "shift+left", "wheel=5",
+                "-", "h", "tab", "r", "home", "f", "left", "right", "up", "down", "shift+left", "wheel=5",
                 "wheel=-5", "move=10,10", "click=3,4", "drag=5,5,30,9", "drag=20,5,1,1", "wait",
             ]),
             0..14,

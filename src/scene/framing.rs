@@ -3,6 +3,7 @@
 //! The scene is written as TOML and read like any other, so what [`Framing::file`] hands out draws
 //! the same picture.
 
+pub mod overlook;
 mod ramp;
 mod view;
 
@@ -17,6 +18,7 @@ use super::maps::ReadMap;
 use super::shown::shown_path;
 use super::tables::Scene;
 use super::{set, write};
+pub use view::PITCH;
 use view::View;
 
 /// The raster of the screen where the user gives none.

@@ -42,8 +42,10 @@ pub enum Action {
     ToggleHelp,
     /// Show legends and status, or hide them.
     TogglePanels,
-    /// Back to the scene's camera.
+    /// Back to the scene's camera and field of view.
     Reset,
+    /// Move to where the whole map is seen.
+    FrameMap,
     /// Turn as if the scene were dragged by this many window pixels, right and down.
     Drag(f64, f64),
     /// Turn by degrees: heading to the left, nose up, right wing down.

@@ -16,6 +16,8 @@ pub enum Key {
     Escape,
     /// Tabulator.
     Tab,
+    /// Home.
+    Home,
     /// Arrow.
     Left,
     /// Arrow.
@@ -180,7 +182,8 @@ fn of(key: Key) -> Option<Action> {
         Key::Char('S') => Action::Screenshot,
         Key::Char('c' | 'C') => Action::CopyScene,
         Key::Char('h' | 'H' | '?') => Action::ToggleHelp,
-        Key::Char('r' | 'R') => Action::Reset,
+        Key::Char('r' | 'R') | Key::Home => Action::Reset,
+        Key::Char('f' | 'F') => Action::FrameMap,
         Key::Tab => Action::TogglePanels,
         Key::Escape => Action::Quit,
         _ => return None,

@@ -3,7 +3,7 @@
 //! | word | does |
 //! |---|---|
 //! | a character, as `w`, `3`, `/` | presses that key; a capital is the key with shift |
-//! | `space`, `esc`, `tab`, `left`, `right`, `up`, `down` | presses that key |
+//! | `space`, `esc`, `tab`, `home`, `left`, `right`, `up`, `down` | presses that key |
 //! | `shift+1` to `shift+6`, `shift+KEY` | presses a key with shift |
 //! | `move=X,Y` | puts the cursor there, window pixels |
 //! | `click=X,Y` | puts the cursor there and clicks (two frames) |
@@ -81,6 +81,7 @@ fn press(word: &str) -> Result<Input, String> {
         ("space", ..) => Key::Char(' '),
         ("esc", ..) => Key::Escape,
         ("tab", ..) => Key::Tab,
+        ("home", ..) => Key::Home,
         ("left", ..) => Key::Left,
         ("right", ..) => Key::Right,
         ("up", ..) => Key::Up,
@@ -90,7 +91,7 @@ fn press(word: &str) -> Result<Input, String> {
         (_, Some(character), None) => Key::Char(character),
         _ => {
             return Err(format!(
-                "`{word}` is no key; give single characters, space, esc, tab, left, right, up, \
+                "`{word}` is no key; give single characters, space, esc, tab, home, left, right, up, \
                  down, shift+KEY, move=X,Y, click=X,Y, drag=X,Y,X,Y, wheel=N or wait"
             ));
         }

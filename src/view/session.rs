@@ -1,14 +1,15 @@
 //! What is being looked at and how. Actions change it; nothing here draws or waits.
 
+mod flight;
+
 use std::sync::Arc;
 
 use crate::engine::Engine;
-use crate::scene::{Camera, Deformation, KernelShape, Scene, Screen, Surface, write};
+use crate::scene::{Camera, Deformation, KernelShape, Scene, Screen, write};
 use crate::sink::picture::Picture;
 
 use super::action::{Action, Effect, Side};
 use super::camera;
-use super::ground;
 use super::layout::Layout;
 use super::order::Order;
 use super::pace::Pace;
@@ -33,18 +34,9 @@ pub struct Session {
     changed: bool,
 }
 
-/// Notch of the wheel along the line of sight, seconds of flight.
-const DOLLY_SECONDS: f64 = 0.25;
-
-/// Speed: this share of the height above ground a second, and that of the map's width.
-const SPEED: (f64, f64) = (0.5, 1.0 / 300.0);
-
 /// Why a scene cannot be copied out.
 const NO_PATH: &str =
     "no scene file can name this map, its path is not UTF-8 text: rename its folder";
-
-/// Eyes are kept above the ground by this share of a cell.
-const CLEARANCE: f64 = 0.01;
 
 /// Largest d of a weight 2^-d that a key reaches; the words have no more bits.
 const LARGEST_SHIFT: u32 = 24;
@@ -198,12 +190,8 @@ impl Session {
             }
             Action::ToggleHelp => self.help = !self.help,
             Action::TogglePanels => self.panels = !self.panels,
-            Action::Reset => {
-                self.scene.camera = self.first.0.clone();
-                let Layout { columns, lines, .. } = self.layout;
-                self.scene.screens[0] = self.first.1.resized(columns as u32, lines as u32);
-                self.changed = true;
-            }
+            Action::Reset => self.reset(),
+            Action::FrameMap => self.frame_map(),
             Action::Drag(right, down) => {
                 let degrees =
                     camera::degrees_per_pixel(&self.scene.screens[0]) / self.layout.scale as f64;
@@ -216,10 +204,7 @@ impl Session {
                 camera::zoom(&mut self.scene.screens[0], notches);
                 self.changed = true;
             }
-            Action::Dolly(notches) => {
-                let distance = self.speed() * DOLLY_SECONDS * notches;
-                self.fly(|craft, grain| camera::dolly(craft, distance, grain));
-            }
+            Action::Dolly(notches) => self.dolly(notches),
             Action::Fly(course, seconds) => {
                 let distance = self.speed() * seconds;
                 self.fly(|craft, grain| camera::fly(craft, course, distance, grain));
@@ -314,44 +299,5 @@ impl Session {
     fn kernel_changed(&mut self) {
         self.changed = true;
         self.keep_above_ground();
-    }
-
-    /// Changes the camera; the function is given the grain of positions.
-    fn fly(&mut self, change: impl FnOnce(&mut Camera, f64)) {
-        let grain = self.scene.surfaces.iter().map(Surface::grain).fold(f64::INFINITY, f64::min);
-        change(&mut self.scene.camera, grain);
-        self.keep_above_ground();
-        self.changed = true;
-    }
-
-    /// Scene units per second.
-    fn speed(&self) -> f64 {
-        let height = self.eye_above_ground().map_or(0.0, f64::abs);
-        let width = self.scene.surfaces.iter().map(Surface::width).fold(0.0, f64::max);
-        SPEED.0 * height + SPEED.1 * width
-    }
-
-    /// Height of the eye above the surface, scene units; `None` beside the map.
-    fn eye_above_ground(&self) -> Option<f64> {
-        let eye = self.eye();
-        ground::height(&self.scene, eye).map(|height| eye.y - height)
-    }
-
-    /// Centre of projection, scene units.
-    #[must_use]
-    pub fn eye(&self) -> glam::DVec3 {
-        crate::plan::geometry::Geometry::new(&self.scene.camera, &self.scene.screens[0]).eye
-    }
-
-    /// No engine draws from under the ground of a height map: the craft is lifted above it.
-    fn keep_above_ground(&mut self) {
-        let Some(terrain) = self.scene.terrain() else { return };
-        let clearance = CLEARANCE * terrain.cell.max_element();
-        if let Some(above) = self.eye_above_ground()
-            && above < clearance
-        {
-            self.scene.camera.position.y += clearance - above;
-            self.notice = Some("kept above the ground: E climbs".into());
-        }
     }
 }

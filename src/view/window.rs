@@ -139,6 +139,7 @@ impl InputCallback for Listener {
             }
             (None, minifb::Key::Escape) => keys.pressed.push(Key::Escape),
             (None, minifb::Key::Tab) => keys.pressed.push(Key::Tab),
+            (None, minifb::Key::Home) => keys.pressed.push(Key::Home),
             _ => {}
         }
     }

@@ -4,7 +4,7 @@ use super::panel::{MARGIN, height, width, write};
 use super::{Canvas, MARK, TEXT};
 
 /// Keys and what they do, as docs/window.md has them.
-pub(super) const KEYS: [(&str, &str); 23] = [
+pub(super) const KEYS: [(&str, &str); 24] = [
     ("drag", "turn: the scene follows the mouse"),
     ("wheel", "zoom; with Shift: move along the line of sight"),
     ("W S  A D", "fly forward, back, left, right; Shift: faster"),
@@ -23,7 +23,8 @@ pub(super) const KEYS: [(&str, &str); 23] = [
     ("+ -", "speed of the scan"),
     ("Space", "pause the scan, go on"),
     (".", "one line"),
-    ("R", "back to the scene's camera"),
+    ("Home, R", "back to the scene's camera and field of view"),
+    ("F", "frame the whole map, looking as now"),
     ("Shift+S", "save the window as PNG"),
     ("C", "print the scene as TOML"),
     ("Tab", "legends and status on, off"),

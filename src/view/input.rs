@@ -26,6 +26,10 @@ pub enum Key {
     Up,
     /// Arrow.
     Down,
+    /// The left arrow, if it went down with Shift.
+    RollLeft,
+    /// The right arrow, if it went down with Shift.
+    RollRight,
 }
 
 /// What the hands do in one tick.
@@ -33,7 +37,8 @@ pub enum Key {
 pub struct Input {
     /// Keys that went down, in order.
     pub pressed: Vec<Key>,
-    /// Keys that are down, or were for a moment: small letters and arrows.
+    /// Keys that are down, or were for a moment: small letters and arrows. One that acted with Shift
+    /// when it went down, as S does, is not among them.
     pub held: Vec<Key>,
     /// Shift is down.
     pub shift: bool,
@@ -198,24 +203,15 @@ fn flight(input: &Input, seconds: f64) -> Vec<Action> {
     let course =
         Course { forward: letter('w', 's'), right: letter('d', 'a'), up: letter('e', 'q') };
     let mut actions = Vec::new();
-    // Shift and S together save a picture; they do not fly.
-    let course = if input.shift && course.forward < 0.0 {
-        Course { forward: 0.0, ..course }
-    } else {
-        course
-    };
     if course != Course::default() {
         actions.push(Action::Fly(course, if input.shift { HURRY * seconds } else { seconds }));
     }
-    let (left, up) = (pair(Key::Left, Key::Right), pair(Key::Up, Key::Down));
     let angle = TURN * seconds;
-    if input.shift && left != 0.0 {
-        actions.push(Action::Turn(0.0, 0.0, -left * angle));
-    } else if left != 0.0 {
-        actions.push(Action::Turn(left * angle, 0.0, 0.0));
-    }
-    if up != 0.0 {
-        actions.push(Action::Turn(0.0, up * angle, 0.0));
+    let heading = angle * pair(Key::Left, Key::Right);
+    let pitch = angle * pair(Key::Up, Key::Down);
+    let roll = angle * pair(Key::RollRight, Key::RollLeft);
+    if [heading, pitch, roll] != [0.0; 3] {
+        actions.push(Action::Turn(heading, pitch, roll));
     }
     actions
 }
@@ -272,8 +268,9 @@ mod tests {
         assert_eq!(held(&[Key::Char('w')], false), [Action::Fly(forward, 0.5)]);
         assert_eq!(held(&[Key::Char('w')], true), [Action::Fly(forward, 2.0)]);
         assert_eq!(held(&[Key::Char('w'), Key::Char('s')], false), []);
-        assert_eq!(held(&[Key::Char('s')], true), []);
+        let back = Course { forward: -1.0, ..forward };
+        assert_eq!(held(&[Key::Char('s')], true), [Action::Fly(back, 2.0)]);
         assert_eq!(held(&[Key::Left], false), [Action::Turn(20.0, 0.0, 0.0)]);
-        assert_eq!(held(&[Key::Right], true), [Action::Turn(0.0, 0.0, 20.0)]);
+        assert_eq!(held(&[Key::RollRight], true), [Action::Turn(0.0, 0.0, 20.0)]);
     }
 }

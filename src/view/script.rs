@@ -97,10 +97,21 @@ fn press(word: &str) -> Result<Input, String> {
         }
     };
     let (held, capital) = match key {
-        Key::Char(letter) => (Key::Char(letter.to_ascii_lowercase()), letter.is_ascii_uppercase()),
-        other => (other, false),
+        // It saves a picture and does not fly.
+        Key::Char('S') => (None, true),
+        Key::Char(letter) => {
+            (Some(Key::Char(letter.to_ascii_lowercase())), letter.is_ascii_uppercase())
+        }
+        Key::Left if shift => (Some(Key::RollLeft), false),
+        Key::Right if shift => (Some(Key::RollRight), false),
+        other => (Some(other), false),
     };
-    Ok(Input { pressed: vec![key], held: vec![held], shift: shift || capital, ..Input::default() })
+    Ok(Input {
+        pressed: vec![key],
+        held: held.into_iter().collect(),
+        shift: shift || capital,
+        ..Input::default()
+    })
 }
 
 #[cfg(test)]
@@ -117,6 +128,9 @@ mod tests {
         assert_eq!(frames.len(), 9);
         assert!(frames[3].shift && !frames[0].shift);
         assert_eq!(frames[3].held, [Key::Char('g')]);
+        let held = |word: &str| parse(word).unwrap()[0].held.clone();
+        assert_eq!(held("shift+left"), [Key::RollLeft]);
+        assert_eq!((held("s"), held("S")), (vec![Key::Char('s')], vec![]));
         assert!(frames[5].button && !frames[6].button);
         assert_eq!((frames[7].wheel, frames[8].cursor), (-2.0, Some((5, 6))));
         assert_eq!(parse("drag=1,2,3,4").unwrap().len(), 4);

@@ -13,7 +13,7 @@
 //!   [`pane`] says what each side of the split shows.
 //! - [`worker`]: the render worker, a thread that draws what the session orders ([`order`]) and
 //!   hands out [`snapshot`]s over a [`desk`]: in `passes` from coarse (`preview`) to fine, with the
-//!   state of `renderer`.
+//!   state of `renderer` and what it keeps of a view (`shelf`).
 //! - [`canvas`]: everything that is seen, as one picture.
 //! - [`run`]: the loop between a [`run::Glass`] and the rest; `window` is the one that opens a
 //!   window, and the only file that knows how.
@@ -34,6 +34,7 @@ mod renderer;
 pub mod run;
 pub mod script;
 pub mod session;
+mod shelf;
 pub mod snapshot;
 pub mod window;
 pub mod worker;

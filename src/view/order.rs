@@ -8,7 +8,8 @@ use crate::scene::Scene;
 /// What is to be drawn.
 #[derive(Clone, Debug)]
 pub struct Order {
-    /// The scene; its first screen is drawn, of at most [`MAX_PIXELS`].
+    /// The scene; its first screen is drawn, of at most [`MAX_PIXELS`]. As long as it is the same one
+    /// in memory, nothing of it has changed.
     pub scene: Arc<Scene>,
     /// Every unit is fitted, as with `--full`.
     pub full: bool,
@@ -22,6 +23,12 @@ pub struct Order {
 pub const MAX_PIXELS: usize = 1 << 24;
 
 impl Order {
+    /// Whether it asks for the same frame as another, whatever is shown of it.
+    #[must_use]
+    pub fn is_view_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scene, &other.scene) && self.full == other.full
+    }
+
     /// Columns and lines of the screen.
     #[must_use]
     pub fn raster(&self) -> (usize, usize) {

@@ -3,7 +3,8 @@
 use std::time::Duration;
 
 use super::pane::Source;
-use super::renderer::{End, Job, Renderer, Task};
+use super::renderer::{End, Job, Renderer};
+use super::shelf::{Shelf, Task};
 use crate::engine::{Band, Engine, Machine};
 use crate::plan::{Plan, WordClass};
 use crate::scene::{Scene, WordSize};
@@ -17,15 +18,22 @@ const PREVIEW: f64 = 0.02;
 
 impl Renderer {
     /// Coarse pictures of all panes, where the true ones would take long.
-    pub fn preview(&mut self, job: Job<'_>, tasks: &[Task]) -> Result<(), End> {
+    pub fn preview(
+        &mut self,
+        job: Job<'_>,
+        tasks: &[Task],
+        shelf: &Shelf<'_>,
+    ) -> Result<(), End> {
         let Job { order, desk, .. } = job;
         let (columns, lines) = order.raster();
         let pixels = (columns * lines) as f64;
-        let wait: f64 = tasks.iter().map(|task| self.cost(task.source) * pixels).sum();
-        if wait < PATIENCE.as_secs_f64() && !order.by_lines {
+        let missing = |task: &&Task| shelf.lines_of(task.source) < shelf.lines();
+        let tasks: Vec<&Task> = tasks.iter().filter(missing).collect();
+        let wait: f64 = tasks.iter().map(|task| self.wait(job, shelf, task.source)).sum();
+        if tasks.is_empty() || wait < PATIENCE.as_secs_f64() && !order.by_lines {
             return Ok(());
         }
-        for task in tasks {
+        for &task in &tasks {
             let share = PREVIEW / tasks.len() as f64;
             let in_time = |f: &usize| self.cost(task.source) * pixels / (f * f) as f64 <= share;
             let factor = match task.source {

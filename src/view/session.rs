@@ -17,7 +17,7 @@ use super::pane::Pane;
 
 /// The state of the window.
 pub struct Session {
-    scene: Scene,
+    scene: Arc<Scene>,
     full: bool,
     map: Option<String>,
     first: (Camera, Screen),
@@ -60,7 +60,7 @@ impl Session {
                 Deformation::TowardHat { weight_shift } => weight_shift,
                 _ => 2,
             },
-            scene,
+            scene: Arc::new(scene),
             full,
             map,
             panes: [pane, right],
@@ -140,7 +140,7 @@ impl Session {
     /// What is to be drawn, if that is something else than at the last call.
     pub fn order(&mut self) -> Option<Order> {
         std::mem::take(&mut self.changed).then(|| Order {
-            scene: Arc::new(self.scene.clone()),
+            scene: Arc::clone(&self.scene),
             full: self.full,
             panes: self.panes().to_vec(),
             by_lines: !self.pace.is_full(),
@@ -153,8 +153,8 @@ impl Session {
         let screen = &self.scene.screens[0];
         let (columns, lines) = (layout.columns as u32, layout.lines as u32);
         if (screen.columns, screen.lines) != (columns, lines) {
-            self.scene.screens[0] = screen.resized(columns, lines);
-            self.changed = true;
+            let screen = screen.resized(columns, lines);
+            self.change_scene().screens[0] = screen;
         }
     }
 
@@ -200,10 +200,7 @@ impl Session {
             Action::Turn(heading, pitch, roll) => {
                 self.fly(|craft, _| camera::turn(craft, heading, pitch, roll));
             }
-            Action::Zoom(notches) => {
-                camera::zoom(&mut self.scene.screens[0], notches);
-                self.changed = true;
-            }
+            Action::Zoom(notches) => camera::zoom(&mut self.change_scene().screens[0], notches),
             Action::Dolly(notches) => self.dolly(notches),
             Action::Fly(course, seconds) => {
                 let distance = self.speed() * seconds;
@@ -227,6 +224,12 @@ impl Session {
             Action::Quit => return Some(Effect::Quit),
         }
         None
+    }
+
+    /// The scene, to change it: what was drawn of it is then of no use.
+    fn change_scene(&mut self) -> &mut Scene {
+        self.changed = true;
+        Arc::make_mut(&mut self.scene)
     }
 
     fn set_pane(&mut self, side: Side, change: impl FnOnce(Pane) -> Pane) {
@@ -258,13 +261,14 @@ impl Session {
         if !self.has_kernel() {
             return;
         }
-        self.scene.kernel.shape = match self.scene.kernel.shape {
+        let next = match self.scene.kernel.shape {
             KernelShape::Cosine => KernelShape::Parabola,
             KernelShape::Parabola => KernelShape::Exponential,
             KernelShape::Exponential => KernelShape::Hat,
             KernelShape::Hat => KernelShape::Cosine,
         };
-        self.kernel_changed();
+        self.change_scene().kernel.shape = next;
+        self.keep_above_ground();
     }
 
     fn next_deformation(&mut self) {
@@ -272,12 +276,13 @@ impl Session {
             return;
         }
         let weight_shift = self.weight_shift;
-        self.scene.kernel.deformation = match self.scene.kernel.deformation {
+        let next = match self.scene.kernel.deformation {
             Deformation::None => Deformation::Stretch,
             Deformation::Stretch => Deformation::TowardHat { weight_shift },
             Deformation::TowardHat { .. } => Deformation::None,
         };
-        self.kernel_changed();
+        self.change_scene().kernel.deformation = next;
+        self.keep_above_ground();
     }
 
     fn add_weight(&mut self, step: i32) {
@@ -292,12 +297,7 @@ impl Session {
         let largest = LARGEST_SHIFT.max(weight_shift);
         let weight_shift = weight_shift.saturating_add_signed(step).min(largest);
         self.weight_shift = weight_shift;
-        self.scene.kernel.deformation = Deformation::TowardHat { weight_shift };
-        self.kernel_changed();
-    }
-
-    fn kernel_changed(&mut self) {
-        self.changed = true;
+        self.change_scene().kernel.deformation = Deformation::TowardHat { weight_shift };
         self.keep_above_ground();
     }
 }

@@ -55,7 +55,7 @@ fn home_goes_back_to_the_camera_of_the_scene() {
 
 /// The corners of the block of ground under a map.
 fn corners(scene: &Scene) -> Vec<DVec3> {
-    let terrain = scene.terrain().unwrap();
+    let terrain = scene.terrain().expect("a terrain");
     let (low, high) = terrain.range();
     let [east, south] = [terrain.map.columns(), terrain.map.rows()].map(|nodes| (nodes - 1) as f64);
     let ends = |end: f64| [0.0, end];

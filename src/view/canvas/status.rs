@@ -105,6 +105,7 @@ fn work(session: &Session, snapshot: &Snapshot, timed: bool) -> Vec<String> {
 fn pace(session: &Session, snapshot: &Snapshot) -> String {
     let pace = session.pace();
     let line = match snapshot.scan.filter(|_| snapshot.by_lines) {
+        Some(line) if line as usize >= session.layout().lines => ", all lines".into(),
         Some(line) => format!(", line {line}"),
         None => String::new(),
     };

@@ -27,9 +27,8 @@ impl Session {
     /// Changes the camera; the function is given the grain of positions.
     pub(super) fn fly(&mut self, change: impl FnOnce(&mut Camera, f64)) {
         let grain = self.scene.surfaces.iter().map(Surface::grain).fold(f64::INFINITY, f64::min);
-        change(&mut self.scene.camera, grain);
+        change(&mut self.change_scene().camera, grain);
         self.keep_above_ground();
-        self.changed = true;
     }
 
     /// Scene units per second.
@@ -64,19 +63,20 @@ impl Session {
         if let Some(above) = self.eye_above_ground()
             && above < clearance
         {
-            self.scene.camera.position.y += clearance - above;
+            self.change_scene().camera.position.y += clearance - above;
             self.notice = Some("kept above the ground: E climbs".into());
         }
     }
 
     /// Back to the scene's camera and field of view; what else keys have changed stays.
     pub(super) fn reset(&mut self) {
-        self.scene.camera = self.first.0.clone();
         let Layout { columns, lines, .. } = self.layout;
-        self.scene.screens[0] = self.first.1.resized(columns as u32, lines as u32);
+        let (camera, screen) = self.first.clone();
+        let scene = self.change_scene();
+        scene.camera = camera;
+        scene.screens[0] = screen.resized(columns as u32, lines as u32);
         // What was ground before may have risen since.
         self.keep_above_ground();
-        self.changed = true;
     }
 
     /// Moves along the line of sight by notches of the wheel.

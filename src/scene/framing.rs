@@ -13,7 +13,7 @@ use std::sync::Arc;
 use super::error::SceneError;
 use super::file::{Document, parse_with};
 use super::height_map::source::{self, is_height_file};
-use super::height_map::{Encoding, HeightFile};
+use super::height_map::{Encoding, Georeference, HeightFile};
 use super::maps::ReadMap;
 use super::shown::shown_path;
 use super::tables::Scene;
@@ -31,6 +31,8 @@ pub struct Framing {
     pub scene: Scene,
     /// What was chosen and assumed, a sentence each.
     pub chosen: Vec<String>,
+    /// Where the file says that its map lies.
+    pub georeference: Georeference,
     /// Where the paths in the scene start.
     folder: PathBuf,
 }
@@ -87,7 +89,7 @@ pub fn read(path: &Path, sets: &[String], size: Option<(u32, u32)>) -> Result<Fr
         text: &write::toml(&view.scene(&known), name),
     };
     let scene = parse_with(&document, sets, Some(&known))?;
-    Ok(Framing { scene, chosen: notes, folder: folder.to_owned() })
+    Ok(Framing { scene, chosen: notes, georeference, folder: folder.to_owned() })
 }
 
 impl Framing {

@@ -13,5 +13,5 @@ pub mod source;
 
 pub use error::{MAX_NODES, MAX_SIDE, MapError};
 pub use found::{Encoding, HeightFile, Storage};
-pub use georeference::Georeference;
+pub use georeference::{Coordinates, Georeference};
 pub use map::HeightMap;

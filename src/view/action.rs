@@ -54,6 +54,12 @@ pub enum Action {
     Zoom(f64),
     /// Move along the line of sight by notches.
     Dolly(f64),
+    /// Take hold of the ground in the middle of the screen, to orbit around it.
+    HoldGround,
+    /// Orbit around it as if the scene were dragged by this many window pixels, right and down.
+    Orbit(f64, f64),
+    /// Come nearer to it by notches.
+    Approach(f64),
     /// Fly along a course for this many seconds.
     Fly(Course, f64),
     /// The cursor is at a place of the window, or has left it.

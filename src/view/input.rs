@@ -46,6 +46,8 @@ pub struct Input {
     pub cursor: Option<(i32, i32)>,
     /// The left button is down.
     pub button: bool,
+    /// The right button is down, or what stands for it.
+    pub orbit: bool,
     /// Notches of the wheel, away from the hand.
     pub wheel: f64,
 }
@@ -62,7 +64,7 @@ const TURN: f64 = 40.0;
 /// Factor of shift on the speed of flight.
 const HURRY: f64 = 4.0;
 
-/// What the left button holds.
+/// What a button holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Hold {
     Nothing,
@@ -73,6 +75,10 @@ enum Hold {
         moved: bool,
     },
     Split,
+    /// The ground in the middle of the screen: since where last.
+    Ground {
+        last: (i32, i32),
+    },
 }
 
 /// Turns input into actions.
@@ -122,15 +128,30 @@ impl Hands {
             actions.push(Action::Point(input.cursor));
         }
         if input.wheel != 0.0 {
-            let dolly = input.shift;
             let wheel = input.wheel;
-            actions.push(if dolly { Action::Dolly(wheel) } else { Action::Zoom(wheel) });
+            actions.push(match self.hold {
+                Hold::Ground { .. } => Action::Approach(wheel),
+                _ if input.shift => Action::Dolly(wheel),
+                _ => Action::Zoom(wheel),
+            });
         }
         let Some(cursor) = input.cursor else {
             self.hold = Hold::Nothing;
             return;
         };
         match (input.button, self.hold) {
+            (_, Hold::Ground { last }) if input.orbit => {
+                let (right, down) = (cursor.0 - last.0, cursor.1 - last.1);
+                if (right, down) != (0, 0) {
+                    actions.push(Action::Orbit(right.into(), down.into()));
+                }
+                self.hold = Hold::Ground { last: cursor };
+            }
+            (_, Hold::Ground { .. }) => self.hold = Hold::Nothing,
+            (false, Hold::Nothing) if input.orbit => {
+                actions.push(Action::HoldGround);
+                self.hold = Hold::Ground { last: cursor };
+            }
             (true, Hold::Nothing) => {
                 let near = split
                     .is_some_and(|place| (layout.across(place) as i32 - cursor.0).abs() <= GRIP);
@@ -240,6 +261,22 @@ mod tests {
         assert_eq!(tick(&mut hands, (30, 25), true), [Action::Drag(10.0, -5.0)]);
         assert_eq!(tick(&mut hands, (31, 25), true), [Action::Drag(1.0, 0.0)]);
         assert_eq!(tick(&mut hands, (31, 25), false), []);
+    }
+
+    #[test]
+    fn the_right_button_orbits_and_the_wheel_then_approaches() {
+        let mut hands = Hands::default();
+        let mut tick = |at: (i32, i32), orbit, wheel| {
+            let input = Input { cursor: Some(at), orbit, wheel, ..Input::default() };
+            let mut actions = hands.actions(&input, &LAYOUT, Some(0.5), 0.1);
+            actions.retain(|action| !matches!(action, Action::Point(_)));
+            actions
+        };
+        assert_eq!(tick((100, 30), true, 0.0), [Action::HoldGround]);
+        assert_eq!(tick((90, 35), true, 0.0), [Action::Orbit(-10.0, 5.0)]);
+        assert_eq!(tick((90, 35), true, 2.0), [Action::Approach(2.0)]);
+        assert_eq!(tick((95, 35), false, 0.0), []);
+        assert_eq!(tick((95, 35), false, 2.0), [Action::Zoom(2.0)]);
     }
 
     #[test]

@@ -10,7 +10,7 @@
 //!   ([`action`]).
 //! - [`script`]: the same from a text, for unattended runs.
 //! - [`session`]: what is being looked at and how; actions change it. [`camera`] moves the craft,
-//!   [`pane`] says what each side of the split shows.
+//!   [`pane`] says what each side of the split shows, [`measure`] what lengths are in metres.
 //! - [`worker`]: the render worker, a thread that draws what the session orders ([`order`]) and
 //!   hands out [`snapshot`]s over a [`desk`]: in `passes` from coarse (`preview`) to fine, with the
 //!   state of `renderer` and what it keeps of a view (`shelf`).
@@ -25,6 +25,7 @@ pub mod desk;
 pub mod ground;
 pub mod input;
 pub mod layout;
+pub mod measure;
 pub mod order;
 pub mod pace;
 pub mod pane;

@@ -1,16 +1,21 @@
 //! What is being looked at and how. Actions change it; nothing here draws or waits.
 
 mod flight;
+mod orbit;
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::engine::Engine;
 use crate::scene::{Camera, Deformation, KernelShape, Scene, Screen, write};
+use crate::scene::height_map::Georeference;
 use crate::sink::picture::Picture;
 
 use super::action::{Action, Effect, Side};
 use super::camera;
 use super::layout::Layout;
+use super::measure::Measure;
 use super::order::Order;
 use super::pace::Pace;
 use super::pane::Pane;
@@ -20,6 +25,7 @@ pub struct Session {
     scene: Arc<Scene>,
     full: bool,
     map: Option<String>,
+    georeference: Option<Georeference>,
     first: (Camera, Screen),
     panes: [Pane; 2],
     split: Option<f64>,
@@ -28,6 +34,8 @@ pub struct Session {
     pace: Pace,
     layout: Layout,
     cursor: Option<(i32, i32)>,
+    /// The ground that the craft orbits around.
+    pivot: Option<DVec3>,
     help: bool,
     panels: bool,
     notice: Option<String>,
@@ -63,11 +71,13 @@ impl Session {
             scene: Arc::new(scene),
             full,
             map,
+            georeference: None,
             panes: [pane, right],
             split: None,
             pace: Pace::default(),
             layout,
             cursor: None,
+            pivot: None,
             help: false,
             panels: true,
             notice: None,
@@ -75,6 +85,18 @@ impl Session {
         };
         session.resize(layout);
         session
+    }
+
+    /// The same, over the map of a file that says where it lies.
+    #[must_use]
+    pub fn over(self, georeference: Georeference) -> Self {
+        Self { georeference: Some(georeference), ..self }
+    }
+
+    /// What its lengths and places are outside of the scene.
+    #[must_use]
+    pub fn measure(&self) -> Measure<'_> {
+        Measure::new(&self.scene, self.georeference.as_ref())
     }
 
     /// The scene as it is now.
@@ -202,6 +224,9 @@ impl Session {
             }
             Action::Zoom(notches) => camera::zoom(&mut self.change_scene().screens[0], notches),
             Action::Dolly(notches) => self.dolly(notches),
+            Action::HoldGround => self.hold_ground(),
+            Action::Orbit(right, down) => self.orbit(right, down),
+            Action::Approach(notches) => self.approach(notches),
             Action::Fly(course, seconds) => {
                 let distance = self.speed() * seconds;
                 self.fly(|craft, grain| camera::fly(craft, course, distance, grain));

@@ -41,6 +41,24 @@ impl Window {
     }
 }
 
+/// Pixels across and down of the screen that windows open on; `None` where there is none, or where
+/// nobody can be asked.
+#[cfg(all(unix, not(target_os = "macos")))]
+#[must_use]
+pub fn screen_size() -> Option<(u32, u32)> {
+    use x11rb::connection::Connection as _;
+    let (connection, number) = x11rb::connect(None).ok()?;
+    let screen = connection.setup().roots.get(number)?;
+    Some((screen.width_in_pixels.into(), screen.height_in_pixels.into()))
+}
+
+/// Pixels across and down of the screen that windows open on, which nobody can be asked for here.
+#[cfg(not(all(unix, not(target_os = "macos"))))]
+#[must_use]
+pub fn screen_size() -> Option<(u32, u32)> {
+    None
+}
+
 impl Glass for Window {
     fn size(&self) -> (usize, usize) {
         self.window.get_size()
@@ -56,15 +74,19 @@ impl Glass for Window {
             // Keys that go up elsewhere are not reported.
             keys.forget();
         }
-        let button = self.window.get_mouse_down(MouseButton::Left);
-        let mode = if button { MouseMode::Pass } else { MouseMode::Discard };
+        let [left, right] =
+            [MouseButton::Left, MouseButton::Right].map(|one| self.window.get_mouse_down(one));
+        // Where there is one button, Control makes it the other.
+        let orbit = right || left && keys.control();
+        let mode = if left || right { MouseMode::Pass } else { MouseMode::Discard };
         let cursor = self.window.get_mouse_pos(mode);
         Some(Input {
             pressed: keys.take_pressed(),
             held: keys.take_held(),
             shift: keys.shift(),
             cursor: cursor.map(|(x, y)| (x.floor() as i32, y.floor() as i32)),
-            button,
+            button: left && !orbit,
+            orbit,
             wheel: self.window.get_scroll_wheel().map_or(0.0, |(_, y)| y.into()),
         })
     }

@@ -116,3 +116,66 @@ fn what_cannot_be_framed_is_said() {
     assert!(up.notice().is_some_and(|notice| notice.contains("Home")));
     assert_eq!(up.scene().camera, before);
 }
+
+#[test]
+fn an_orbit_keeps_its_point_in_the_middle() {
+    let mounted = ["camera.offset=[2, 1, -3]", "camera.roll=12", "screen.center=[0.1, -0.05]"];
+    for sets in [&[][..], &mounted] {
+        let mut session = session(scene("flight", sets), (300, 200));
+        let seen = |session: &Session, point| {
+            let scene = session.scene();
+            Oracle::new(scene, &scene.screens[0]).project(point).expect("before the eye")
+        };
+        let middle = |session: &Session| {
+            let scene = session.scene();
+            Oracle::new(scene, &scene.screens[0]).pixel(99.5, 149.5).point
+        };
+        let point = middle(&session);
+        let apart = session.eye().distance(point);
+        let [heading, pitch, roll] = degrees(&session.scene().camera);
+        session.act(Action::HoldGround);
+        for (right, down) in [(40.0, 60.0), (300.0, 20.0), (-111.0, 7.0)] {
+            session.act(Action::Orbit(right, down));
+            let (line, column) = seen(&session, point);
+            let off = (line - 99.5).hypot(column - 149.5);
+            assert!(off < 0.05, "{right} {down}: {off} pixels");
+            assert!((session.eye().distance(point) / apart - 1.0).abs() < 1e-5);
+        }
+        let [h, p, r] = degrees(&session.scene().camera);
+        let turned = (heading - h - 0.3 * 229.0).rem_euclid(360.0);
+        // Angles are kept to thousandths of a degree.
+        assert!(turned.min(360.0 - turned) < 2e-3, "{turned}");
+        assert!((pitch - p - 0.3 * 87.0).abs() < 2e-3 && (r - roll).abs() < 2e-3);
+        session.act(Action::Approach(5.0));
+        assert!((session.eye().distance(point) / apart - 0.88_f64.powi(5)).abs() < 1e-5);
+        // A drag down: from higher up.
+        let height = session.eye().y;
+        session.act(Action::Orbit(0.0, 10.0));
+        assert!(session.eye().y > height);
+    }
+    // By the hands: the wheel approaches, it does not zoom.
+    let keys = "tab orbit=100,100,60,90,3";
+    let (canvas, _) = run(scene("flight", &[]), (300, 200), keys);
+    let mut session = session(scene("flight", &[]), (300, 200));
+    for action in [Action::HoldGround, Action::Orbit(-40.0, -10.0), Action::Approach(3.0)] {
+        session.act(action);
+    }
+    let expected = super::frame(session.scene(), (300, 200), Engine::Fast).color;
+    assert_eq!(canvas.bytes(), expected);
+}
+
+#[test]
+fn without_ground_in_the_middle_the_base_or_nothing_is_held() {
+    let off_map = ["camera.position=[-50, 40, 100]", "camera.heading=180", "camera.pitch=-30"];
+    let mut beside = session(scene("overview", &off_map), (300, 200));
+    let from = beside.eye();
+    beside.act(Action::HoldGround);
+    beside.act(Action::Orbit(100.0, 0.0));
+    assert!(beside.notice().is_none() && beside.eye().distance(from) > 10.0);
+    let mut sky = session(scene("flight", &["camera.pitch=60"]), (300, 200));
+    let from = sky.eye();
+    sky.act(Action::HoldGround);
+    assert!(sky.notice().is_some_and(|notice| notice.contains("no ground")));
+    sky.act(Action::Orbit(100.0, 0.0));
+    assert_eq!(sky.eye(), from);
+}

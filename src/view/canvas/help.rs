@@ -4,8 +4,9 @@ use super::panel::{MARGIN, height, width, write};
 use super::{Canvas, MARK, TEXT};
 
 /// Keys and what they do, as docs/window.md has them.
-pub(super) const KEYS: [(&str, &str); 24] = [
+pub(super) const KEYS: [(&str, &str); 25] = [
     ("drag", "turn: the scene follows the mouse"),
+    ("right drag", "orbit around the middle; wheel: nearer, farther"),
     ("wheel", "zoom; with Shift: move along the line of sight"),
     ("W S  A D", "fly forward, back, left, right; Shift: faster"),
     ("E Q", "climb, sink"),

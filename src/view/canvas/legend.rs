@@ -110,6 +110,9 @@ fn contents(session: &Session, image: &Image, most: i32) -> Vec<Row> {
             if let Some(Legend { low, high, unit, logarithmic }) = image.legend {
                 rows.push(Row::Bar(Box::new(move |t| other.ramp(t).unwrap_or(NOTHING))));
                 rows.push(Row::Ends(figure(low), figure(high)));
+                if other == Picture::Height {
+                    rows.push(in_metres(session, (low, high)));
+                }
                 let scale = if logarithmic { ", logarithmic" } else { "" };
                 rows.push(Row::Text(format!("{unit}{scale}")));
             }
@@ -136,15 +139,25 @@ fn color(session: &Session, rows: &mut Vec<Row>) {
                 let (low, high) = terrain.range();
                 rows.push(Row::Bar(Box::new(move |t| picture::ramp(&ramp, t))));
                 rows.push(Row::Ends(figure(low), figure(high)));
+                rows.push(in_metres(session, (low, high)));
                 rows.push(Row::Text("height, scene units; lit".into()));
             }
             Surface::Plane(plane) => {
                 let squares = scene.color.checker.map(|color| (color, "square"));
                 rows.push(Row::Swatches(squares.to_vec()));
-                rows.push(Row::Text(format!("of {} scene units", figure(plane.checker))));
+                let side = plane.checker;
+                let metres = session.measure().distance_m(side);
+                let (units, metres) = (figure(side), figure(metres));
+                rows.push(Row::Text(format!("of {units} scene units, {metres} m")));
             }
         }
     }
+}
+
+/// Heights in scene units, as metres.
+fn in_metres(session: &Session, (low, high): (f64, f64)) -> Row {
+    let [low, high] = [low, high].map(|y| format!("{} m", figure(session.measure().height_m(y))));
+    Row::Ends(low, high)
 }
 
 fn bar(canvas: &mut Canvas, x: i32, y: i32, wide: i32, tall: i32, ramp: &dyn Fn(f64) -> [u8; 3]) {

@@ -1,7 +1,7 @@
 //! The status line: craft, machine, time, and the pixel under the cursor.
 
 use crate::frame::Hit;
-use crate::scene::{Deformation, Extent, Scene};
+use crate::scene::{Deformation, Extent};
 use crate::study::error::Sheet;
 use crate::study::probe::Probe;
 
@@ -35,11 +35,11 @@ pub(super) fn draw(
     }
     match &snapshot.facts.probe {
         Some(found) if session.pointed() == Some((found.column, found.line)) => {
-            add(&probe(found), TEXT);
+            add(&probe(session, found), TEXT);
         }
         _ => {}
     }
-    add(&craft(session.scene()), TEXT);
+    add(&craft(session), TEXT);
     add(&work(session, snapshot, timed), TEXT);
 
     let row = height(font);
@@ -57,7 +57,8 @@ pub(super) fn draw(
     top
 }
 
-fn craft(scene: &Scene) -> Vec<String> {
+fn craft(session: &Session) -> Vec<String> {
+    let (scene, measure) = (session.scene(), session.measure());
     // What rounds to nothing has no sign.
     let tenth = |degrees: f64| (degrees * 10.0).round() / 10.0 + 0.0;
     let [heading, pitch, roll] = camera::degrees(&scene.camera).map(tenth);
@@ -65,10 +66,15 @@ fn craft(scene: &Scene) -> Vec<String> {
     let place = scene.camera.position;
     let mut items = vec![
         format!("at {:.2} {:.2} {:.2}", place.x, place.y, place.z),
+        format!("eye at {} m", figure(measure.height_m(session.eye().y))),
         format!("heading {heading:.1}° (compass {course:.1}° {point})"),
         format!("pitch {pitch:+.1}°"),
         format!("roll {roll:+.1}°"),
     ];
+    if let Some(above) = session.eye_above_ground() {
+        let metres = figure(measure.rise_m(above));
+        items.insert(2, format!("{} above ground, {metres} m", figure(above)));
+    }
     if let Extent::FieldOfView(fov) = scene.screens[0].extent {
         items.push(format!("field {:.1}°", fov.to_degrees()));
     }
@@ -131,12 +137,18 @@ fn frame_rate(FrameRate { fps, clock_mhz, counted, lines }: &FrameRate) -> Strin
     format!("machine {} frames/s at {} MHz{sampled}", figure(*fps), figure(*clock_mhz))
 }
 
-fn probe(probe: &Probe) -> Vec<String> {
+fn probe(session: &Session, probe: &Probe) -> Vec<String> {
+    let measure = session.measure();
     let mut items = vec![format!("pixel {},{}", probe.column, probe.line)];
     match probe.point {
         Some(point) => {
             let what = if probe.hit == Hit::Side { "side, rim" } else { "ground" };
             items.push(format!("{what} {:.3} {:.3} {:.3}", point.x, point.y, point.z));
+            items.push(format!("{} m high", figure(measure.height_m(point.y))));
+            items.extend(measure.place(point.x, point.z));
+            let away = (point - session.eye()).with_y(0.0).length();
+            let metres = figure(measure.distance_m(away));
+            items.push(format!("{} away over ground, {metres} m", figure(away)));
             items.push(format!("step {}", probe.steps));
         }
         None => items.push(probe.hit.name().into()),

@@ -39,7 +39,8 @@ impl Session {
     }
 
     /// Height of the eye above the surface, scene units; `None` beside the map.
-    fn eye_above_ground(&self) -> Option<f64> {
+    #[must_use]
+    pub fn eye_above_ground(&self) -> Option<f64> {
         let eye = self.eye();
         ground::height(&self.scene, eye).map(|height| eye.y - height)
     }
@@ -66,6 +67,15 @@ impl Session {
             self.change_scene().camera.position.y += clearance - above;
             self.notice = Some("kept above the ground: E climbs".into());
         }
+    }
+
+    /// Puts a craft where its eye is at a place.
+    pub(super) fn stand(&mut self, craft: Camera, eye: DVec3) {
+        let now = Geometry::new(&craft, &self.scene.screens[0]).eye;
+        self.fly(|camera, grain| {
+            let position = camera::rounded(craft.position + eye - now, grain);
+            *camera = Camera { position, ..craft };
+        });
     }
 
     /// Back to the scene's camera and field of view; what else keys have changed stays.
@@ -110,10 +120,7 @@ impl Session {
                 Some("this screen does not look down at the map: turn, or press Home".into());
             return;
         };
-        self.fly(|craft, grain| {
-            let position = camera::rounded(craft.position + eye - geometry.eye, grain);
-            *craft = Camera { position, ..level };
-        });
+        self.stand(level, eye);
     }
 }
 

@@ -32,6 +32,12 @@ impl Keys {
         self.down.iter().any(|down| matches!(down.key, K::LeftShift | K::RightShift))
     }
 
+    /// Whether Control is down.
+    pub(super) fn control(&self) -> bool {
+        use minifb::Key as K;
+        self.down.iter().any(|down| matches!(down.key, K::LeftCtrl | K::RightCtrl))
+    }
+
     /// No key is down any more.
     pub(super) fn forget(&mut self) {
         self.down.clear();

@@ -64,7 +64,7 @@ mod open {
     use crate::view::run;
     use crate::view::script;
     use crate::view::session::Session;
-    use crate::view::window::{Window, screen_size};
+    use crate::view::window::{Screen, Window};
     use crate::view::worker::RenderWorker;
 
     /// Largest window that opens unasked, on a screen that has so many pixels: scenes with a larger
@@ -86,7 +86,8 @@ mod open {
             let planned = self.scene.load()?;
             outputs::keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
             let scene_text = self.scene_out.text(&planned)?;
-            let layout = self.layout(&planned)?;
+            let screen = Screen::find();
+            let layout = self.layout(&planned, &screen)?;
             let map = self.map(&planned.scene);
             let engine = if planned.world.wraps() { Engine::Fast } else { Engine::Processor };
             let scene = alone(&planned);
@@ -99,6 +100,7 @@ mod open {
             let worker = RenderWorker::start(order).map_err(|error| planned.refused(&error))?;
             let mut window =
                 Window::open(&title, layout.width, layout.height).map_err(no_display)?;
+            drop(screen);
             self.scene_out.write(scene_text.as_deref())?;
             for chosen in planned.framing.iter().flat_map(|framing| &framing.chosen) {
                 eprintln!("chosen: {chosen}");
@@ -123,11 +125,11 @@ mod open {
         }
 
         /// The window that shows the scene's raster, or the one asked for.
-        fn layout(&self, planned: &Planned) -> Result<Layout, Stop> {
+        fn layout(&self, planned: &Planned, shown: &Screen) -> Result<Layout, Stop> {
             let screen = &planned.plan.screen;
             let (mut columns, mut lines) = (screen.columns, screen.lines);
             let scale = self.scale;
-            let shown = screen_size();
+            let shown = shown.size();
             if !self.scene.asks_for_size() {
                 let (wide, tall) = shown.unwrap_or(UNASKED);
                 let fit = |pixels: u32, most: u32| f64::from(most) / f64::from(pixels * scale);

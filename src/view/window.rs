@@ -41,22 +41,39 @@ impl Window {
     }
 }
 
-/// Pixels across and down of the screen that windows open on; `None` where there is none, or where
-/// nobody can be asked.
-#[cfg(all(unix, not(target_os = "macos")))]
-#[must_use]
-pub fn screen_size() -> Option<(u32, u32)> {
-    use x11rb::connection::Connection as _;
-    let (connection, number) = x11rb::connect(None).ok()?;
-    let screen = connection.setup().roots.get(number)?;
-    Some((screen.width_in_pixels.into(), screen.height_in_pixels.into()))
+/// The screen that windows open on. It is to be kept until the window is open: a display whose last
+/// program leaves may start anew, and refuse others while it does.
+pub struct Screen {
+    #[cfg(all(unix, not(target_os = "macos")))]
+    connection: Option<(x11rb::rust_connection::RustConnection, usize)>,
 }
 
-/// Pixels across and down of the screen that windows open on, which nobody can be asked for here.
-#[cfg(not(all(unix, not(target_os = "macos"))))]
-#[must_use]
-pub fn screen_size() -> Option<(u32, u32)> {
-    None
+impl Screen {
+    /// Looks for it.
+    #[must_use]
+    pub fn find() -> Self {
+        Self {
+            #[cfg(all(unix, not(target_os = "macos")))]
+            connection: x11rb::connect(None).ok(),
+        }
+    }
+
+    /// Pixels across and down; `None` where there is no screen, or where nobody can be asked.
+    #[cfg(all(unix, not(target_os = "macos")))]
+    #[must_use]
+    pub fn size(&self) -> Option<(u32, u32)> {
+        use x11rb::connection::Connection as _;
+        let (connection, number) = self.connection.as_ref()?;
+        let screen = connection.setup().roots.get(*number)?;
+        Some((screen.width_in_pixels.into(), screen.height_in_pixels.into()))
+    }
+
+    /// Pixels across and down, which nobody can be asked for here.
+    #[cfg(not(all(unix, not(target_os = "macos"))))]
+    #[must_use]
+    pub fn size(&self) -> Option<(u32, u32)> {
+        None
+    }
 }
 
 impl Glass for Window {

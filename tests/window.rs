@@ -6,6 +6,8 @@ mod display;
 mod flight;
 #[path = "window/golden.rs"]
 mod golden;
+#[path = "window/looks.rs"]
+mod looks;
 #[path = "window/measure.rs"]
 mod measure;
 #[path = "window/scan.rs"]
@@ -322,7 +324,7 @@ proptest! {
         words in prop::collection::vec(
             prop::sample::select(vec![
                 "w", "s", "a", "d", "e", "q", "W", "1", "2", "3", "4", "5", "6", "shift+1",
-                "shift+5", "shift+6", "g", "G", "k", "j", "[", "]", "/", "space", ".", "+", "-",
+                "shift+5", "shift+6", "v", "V", "l", "O", "p", "g", "G", "k", "j", "[", "]", "/", "space", ".", "+", "-",
                 "-", "h", "tab", "r", "home", "f", "left", "right", "up", "down", "shift+left", "wheel=5",
                 "wheel=-5", "move=10,10", "click=3,4", "drag=5,5,30,9", "orbit=5,5,30,9,2", "drag=20,5,1,1", "wait",
             ]),

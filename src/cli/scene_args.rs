@@ -30,6 +30,11 @@ pub struct SceneArgs {
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
 
+    /// Draw heights N times life size, in place of surface.height.scale. Samples are metres, unless a
+    /// height file says what else they are.
+    #[arg(long, value_name = "N", value_parser = parse_exaggeration)]
+    exaggeration: Option<f64>,
+
     /// The screen (channel) to draw; the first if not given.
     #[arg(long, value_name = "NAME")]
     screen: Option<String>,
@@ -88,10 +93,18 @@ impl Planned {
 impl SceneArgs {
     /// Reads, overrides and plans the scene.
     pub fn load(&self) -> Result<Planned, Stop> {
+        let scaled = |set: &String| set.contains("height.scale") || set.contains("height=");
+        if self.exaggeration.is_some() && self.set.iter().any(scaled) {
+            return Err(Stop::BadInput(
+                "--exaggeration: it chooses surface.height.scale, which --set gives as well; leave \
+                 one of the two out"
+                    .into(),
+            ));
+        }
         let framing = match self.scene.as_deref() {
             Some(name) if scene::builtin::find(name).is_none() && framing::applies(name) => {
                 let size = self.size.as_deref().map(parse_size).transpose()?;
-                Some(framing::read(Path::new(name), &self.set, size)?)
+                Some(framing::read(Path::new(name), &self.set, size, self.exaggeration)?)
             }
             _ => None,
         };
@@ -99,6 +112,16 @@ impl SceneArgs {
             Some(framing) => framing.scene.clone(),
             None => scene::load(self.scene.as_deref(), &self.set)?,
         };
+        if let Some(times) = self.exaggeration
+            && framing.is_none()
+            && !scene.exaggerate(times, 1.0)
+        {
+            return Err(Stop::BadInput(format!(
+                "--exaggeration: {} has no terrain whose heights it could change; leave it out, or \
+                 give a height file or a scene with a terrain",
+                scene.name
+            )));
+        }
         for format in &self.format {
             scene.formats.push(parse_format(format)?);
         }
@@ -148,11 +171,20 @@ impl SceneArgs {
         if let Some(screen) = &self.screen {
             option("--screen", screen);
         }
+        if let Some(times) = self.exaggeration {
+            option("--exaggeration", &times.to_string());
+        }
         if self.full {
             words.push("--full".into());
         }
         words.join(" ")
     }
+}
+
+/// Times life size.
+fn parse_exaggeration(text: &str) -> Result<f64, String> {
+    let times = text.parse().ok().filter(|times| (0.001..=1000.0).contains(times));
+    times.ok_or_else(|| "give a number from 0.001 to 1000; 1 is life size".into())
 }
 
 /// A word for a POSIX shell.

@@ -4,7 +4,7 @@
 //! the same picture.
 
 pub mod overlook;
-mod ramp;
+pub mod ramp;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -44,11 +44,17 @@ pub fn applies(name: &str) -> bool {
 
 /// Reads a height file and chooses a scene for it, for a screen of `size` columns and lines.
 ///
-/// Camera, exaggeration and colours are chosen before the `--set` options are applied.
+/// Camera, exaggeration, unless it is asked for as times life size, and colours are chosen before the
+/// `--set` options are applied.
 ///
 /// # Errors
 /// If the file is no height map, its heights are too large for a scene, or an option does not fit.
-pub fn read(path: &Path, sets: &[String], size: Option<(u32, u32)>) -> Result<Framing, SceneError> {
+pub fn read(
+    path: &Path,
+    sets: &[String],
+    size: Option<(u32, u32)>,
+    exaggeration: Option<f64>,
+) -> Result<Framing, SceneError> {
     let encoding = encoding(sets);
     let unreadable = |file: &Path, reason: String, remedy: String| SceneError::Unreadable {
         file: shown_path(file),
@@ -76,7 +82,7 @@ pub fn read(path: &Path, sets: &[String], size: Option<(u32, u32)>) -> Result<Fr
         ));
     };
     let HeightFile { map, georeference, mut notes, .. } = file;
-    let view = View::new(&map, &georeference, size.unwrap_or(SIZE))
+    let view = View::new(&map, &georeference, size.unwrap_or(SIZE), exaggeration)
         .map_err(|(reason, remedy)| unreadable(path, reason, remedy))?;
     notes.extend(view.reasons.iter().cloned());
     let known = ReadMap { source: name.to_owned(), encoding, map: Arc::new(map) };

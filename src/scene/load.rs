@@ -29,7 +29,7 @@ pub fn load(name_or_path: Option<&str>, sets: &[String]) -> Result<Scene, SceneE
         );
     }
     if framing::applies(name) {
-        return framing::read(Path::new(name), sets, None).map(|framing| framing.scene);
+        return framing::read(Path::new(name), sets, None, None).map(|framing| framing.scene);
     }
     let names = || builtin::SCENES.iter().map(|scene| scene.name);
     let path = Path::new(name);

@@ -26,6 +26,12 @@ pub enum Action {
     NextDeformation,
     /// Add to d of the weight 2^-d.
     Weight(i32),
+    /// The next vertical exaggeration up (1) or down (-1).
+    Exaggerate(i32),
+    /// Turn the sun by degrees, clockwise and up.
+    TurnSun(f64, f64),
+    /// Go on by so many colour ramps.
+    NextRamp(i32),
     /// Split the raster in two, or show one picture again.
     ToggleSplit,
     /// Move the split to a place across the raster, 0..=1.

@@ -61,6 +61,9 @@ const SLIP: i32 = 3;
 /// Degrees per second that arrow keys turn.
 const TURN: f64 = 40.0;
 
+/// Degrees by which a key turns the sun, and by which it lifts it.
+const SUN: (f64, f64) = (15.0, 5.0);
+
 /// Factor of shift on the speed of flight.
 const HURRY: f64 = 4.0;
 
@@ -200,6 +203,14 @@ fn of(key: Key) -> Option<Action> {
         Key::Char('j' | 'J') => Action::NextDeformation,
         Key::Char('[') => Action::Weight(-1),
         Key::Char(']') => Action::Weight(1),
+        Key::Char('v') => Action::Exaggerate(1),
+        Key::Char('V') => Action::Exaggerate(-1),
+        Key::Char('l') => Action::TurnSun(SUN.0, 0.0),
+        Key::Char('L') => Action::TurnSun(-SUN.0, 0.0),
+        Key::Char('o') => Action::TurnSun(0.0, SUN.1),
+        Key::Char('O') => Action::TurnSun(0.0, -SUN.1),
+        Key::Char('p') => Action::NextRamp(1),
+        Key::Char('P') => Action::NextRamp(-1),
         Key::Char('/') => Action::ToggleSplit,
         Key::Char(' ') => Action::TogglePause,
         Key::Char('.') => Action::OneLine,

@@ -41,7 +41,8 @@ impl<'a> Measure<'a> {
     }
 
     /// Metres per unit of sample.
-    fn sample_m(&self) -> f64 {
+    #[must_use]
+    pub fn sample_m(&self) -> f64 {
         self.file.and_then(|file| file.height_unit_m).unwrap_or(1.0)
     }
 

@@ -1,6 +1,7 @@
 //! What is being looked at and how. Actions change it; nothing here draws or waits.
 
 mod flight;
+mod looks;
 mod orbit;
 
 use std::sync::Arc;
@@ -8,7 +9,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::engine::Engine;
-use crate::scene::{Camera, Deformation, KernelShape, Scene, Screen, write};
+use crate::scene::{Camera, Deformation, Scene, Screen, write};
 use crate::scene::height_map::Georeference;
 use crate::sink::picture::Picture;
 
@@ -31,6 +32,8 @@ pub struct Session {
     split: Option<f64>,
     /// Of deformation 2, while another one is on.
     weight_shift: u32,
+    /// The ramp of the scene, and which of those to choose from is on.
+    ramp: (Vec<[u8; 3]>, usize),
     pace: Pace,
     layout: Layout,
     cursor: Option<(i32, i32)>,
@@ -45,9 +48,6 @@ pub struct Session {
 /// Why a scene cannot be copied out.
 const NO_PATH: &str =
     "no scene file can name this map, its path is not UTF-8 text: rename its folder";
-
-/// Largest d of a weight 2^-d that a key reaches; the words have no more bits.
-const LARGEST_SHIFT: u32 = 24;
 
 impl Session {
     /// A scene whose first screen is looked at. `map` is the path of its height map for scenes
@@ -68,6 +68,7 @@ impl Session {
                 Deformation::TowardHat { weight_shift } => weight_shift,
                 _ => 2,
             },
+            ramp: (scene.color.ramp.clone(), 0),
             scene: Arc::new(scene),
             full,
             map,
@@ -196,6 +197,9 @@ impl Session {
             Action::NextShape => self.next_shape(),
             Action::NextDeformation => self.next_deformation(),
             Action::Weight(step) => self.add_weight(step),
+            Action::Exaggerate(steps) => self.exaggerate(steps),
+            Action::TurnSun(east, up) => self.turn_sun(east, up),
+            Action::NextRamp(steps) => self.next_ramp(steps),
             Action::ToggleSplit => {
                 self.split = if self.split.is_some() { None } else { Some(0.5) };
                 self.changed = true;
@@ -271,58 +275,5 @@ impl Session {
         change(&mut self.pace);
         // Between two speeds the scan goes on where it is.
         self.changed |= before != self.pace.is_full();
-    }
-
-    /// Whether the scene has a kernel; says so if it has none.
-    fn has_kernel(&mut self) -> bool {
-        let terrain = self.scene.terrain().is_some();
-        if !terrain {
-            self.notice = Some("a plane has no kernel".into());
-        }
-        terrain
-    }
-
-    fn next_shape(&mut self) {
-        if !self.has_kernel() {
-            return;
-        }
-        let next = match self.scene.kernel.shape {
-            KernelShape::Cosine => KernelShape::Parabola,
-            KernelShape::Parabola => KernelShape::Exponential,
-            KernelShape::Exponential => KernelShape::Hat,
-            KernelShape::Hat => KernelShape::Cosine,
-        };
-        self.change_scene().kernel.shape = next;
-        self.keep_above_ground();
-    }
-
-    fn next_deformation(&mut self) {
-        if !self.has_kernel() {
-            return;
-        }
-        let weight_shift = self.weight_shift;
-        let next = match self.scene.kernel.deformation {
-            Deformation::None => Deformation::Stretch,
-            Deformation::Stretch => Deformation::TowardHat { weight_shift },
-            Deformation::TowardHat { .. } => Deformation::None,
-        };
-        self.change_scene().kernel.deformation = next;
-        self.keep_above_ground();
-    }
-
-    fn add_weight(&mut self, step: i32) {
-        if !self.has_kernel() {
-            return;
-        }
-        let Deformation::TowardHat { weight_shift } = self.scene.kernel.deformation else {
-            self.notice = Some("only deformation 2 has a weight: press J".into());
-            return;
-        };
-        // A scene may ask for more than the keys reach.
-        let largest = LARGEST_SHIFT.max(weight_shift);
-        let weight_shift = weight_shift.saturating_add_signed(step).min(largest);
-        self.weight_shift = weight_shift;
-        self.change_scene().kernel.deformation = Deformation::TowardHat { weight_shift };
-        self.keep_above_ground();
     }
 }

@@ -167,3 +167,34 @@ fn overflows_are_located() {
         assert_eq!((&overflow["line"], &overflow["column"]), (&8.into(), &0.into()));
     }
 }
+
+#[test]
+fn heights_are_exaggerated_on_demand() {
+    let folder = Folder::new();
+    // The scene has 0.025 units per metre, of 80 m each: twice life size.
+    let as_it_is = draw(&folder, "flight", "plain", &[]);
+    assert!(as_it_is == draw(&folder, "flight", "twice", &["--exaggeration", "2"]));
+    let flat = draw(&folder, "flight", "flat", &["--exaggeration", "1"]);
+    assert!(flat == draw(&folder, "flight", "set", &["--set", "surface.height.scale=0.0125"]));
+    assert!(flat != as_it_is);
+
+    // A height file, whose camera is chosen for the heights as they are drawn.
+    super::write_map(&folder.path("map.png"), 40, 30, |i, j| (i * j * 3) as u16);
+    let args = ["render", "map.png", "--size", "64x48", "--scene-out", "out.toml"];
+    folder.prints(&[&args[..], &["--exaggeration", "4"]].concat());
+    let scene = String::from_utf8(folder.read("out.toml")).expect("text");
+    // Cells of 30 m are assumed: 4/30.
+    assert!(scene.contains("scale = 0.133333"), "{scene}");
+
+    for (arguments, names) in [
+        (&["plane", "--exaggeration", "2"][..], "no terrain"),
+        (&["flight", "--exaggeration", "0"], "1 is life size"),
+        (&["flight", "--exaggeration", "x"], "1 is life size"),
+        (&["flight", "--exaggeration", "2", "--set", "surface.height.scale=1"], "one of the two"),
+    ] {
+        let output = folder.run(&[&["render"][..], arguments].concat());
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
+        assert!(stderr.contains(names), "{arguments:?}: {stderr}");
+    }
+}

@@ -169,7 +169,7 @@ fn from_text((text, sets): (String, Vec<String>)) -> Result<Scene, Stop> {
 fn from_grid((grid, sets): (String, Vec<String>)) -> Result<Scene, Stop> {
     let path = FOLDER.path().join("grid.asc");
     std::fs::write(&path, grid).map_err(|error| Stop::Wrong(error.to_string()))?;
-    let framing = framing::read(&path, &sets, Some((16, 12))).map_err(refused)?;
+    let framing = framing::read(&path, &sets, Some((16, 12)), None).map_err(refused)?;
     let file = framing.file(&framing.scene, &FOLDER.path().join("grid.toml")).map_err(refused)?;
     reads_back(&framing.scene, &file)?;
     Ok(framing.scene)

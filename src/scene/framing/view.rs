@@ -74,6 +74,7 @@ impl View {
         map: &HeightMap,
         georeference: &Georeference,
         size: (u32, u32),
+        asked: Option<f64>,
     ) -> Result<Self, (String, String)> {
         let (columns, rows) = (map.columns(), map.rows());
         let (low, high) = map.range();
@@ -109,7 +110,10 @@ impl View {
         let extent = DVec2::new(across * cell.x, down * cell.y);
         let longer = extent.max_element();
         let range = (f64::from(high) - f64::from(low)) * height_unit_m / unit_m;
-        let exaggeration = exaggeration(range / longer, known.is_some(), &mut reasons);
+        let exaggeration = match asked {
+            Some(asked) => asked,
+            None => exaggeration(range / longer, known.is_some(), &mut reasons),
+        };
         let scale = neat(height_unit_m * exaggeration / unit_m).max(1e-9);
         let top = (f64::from(high) - f64::from(low)) * scale;
         let base_depth = neat((top / 4.0).max(longer / 64.0));
@@ -251,7 +255,7 @@ mod tests {
     fn view(columns: usize, rows: usize, range: f32, size: (u32, u32)) -> View {
         let samples = (0..columns * rows).map(|k| if k == 3 { range } else { 0.0 }).collect();
         let map = HeightMap::new(columns, rows, samples);
-        View::new(&map, &Georeference::unknown(), size).unwrap()
+        View::new(&map, &Georeference::unknown(), size, None).unwrap()
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::panel::{MARGIN, height, width, write};
 use super::{Canvas, MARK, TEXT};
 
 /// Keys and what they do, as docs/window.md has them.
-pub(super) const KEYS: [(&str, &str); 25] = [
+pub(super) const KEYS: [(&str, &str); 29] = [
     ("drag", "turn: the scene follows the mouse"),
     ("right drag", "orbit around the middle; wheel: nearer, farther"),
     ("wheel", "zoom; with Shift: move along the line of sight"),
@@ -21,6 +21,10 @@ pub(super) const KEYS: [(&str, &str); 25] = [
     ("K", "kernel: cosine, parabola, exponential, hat"),
     ("J", "deformation 0, 1, 2"),
     ("[ ]", "weight of deformation 2: 2^-d"),
+    ("V  Shift+V", "heights: more, less exaggerated"),
+    ("L  Shift+L", "sun: clockwise, back"),
+    ("O  Shift+O", "sun: higher, lower"),
+    ("P  Shift+P", "colours: next, previous ramp"),
     ("+ -", "speed of the scan"),
     ("Space", "pause the scan, go on"),
     (".", "one line"),

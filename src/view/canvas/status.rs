@@ -95,6 +95,9 @@ fn work(session: &Session, snapshot: &Snapshot, timed: bool) -> Vec<String> {
             }
         });
     }
+    if let Some(times) = session.exaggeration() {
+        items.push(format!("heights x {}", figure(times)));
+    }
     let layout = session.layout();
     let scale = if layout.scale > 1 { format!(" x {}", layout.scale) } else { String::new() };
     let raster = format!("{}x{}{scale}", layout.columns, layout.lines);

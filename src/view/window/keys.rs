@@ -109,7 +109,10 @@ impl InputCallback for Listener {
 /// Keys that act again and again while they are down.
 fn repeats(key: minifb::Key) -> bool {
     use minifb::Key as K;
-    matches!(key, K::LeftBracket | K::RightBracket | K::Period | K::Minus | K::Equal)
+    matches!(
+        key,
+        K::LeftBracket | K::RightBracket | K::Period | K::Minus | K::Equal | K::L | K::O | K::V
+    )
 }
 
 fn digit(key: minifb::Key) -> Option<u8> {

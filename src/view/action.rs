@@ -46,6 +46,8 @@ pub enum Action {
     Slower,
     /// Show the keys, or hide them.
     ToggleHelp,
+    /// Turn so many pages of the help, or of the status line without it.
+    Page(i32),
     /// Show legends and status, or hide them.
     TogglePanels,
     /// Back to the scene's camera and field of view.

@@ -18,6 +18,10 @@ pub enum Key {
     Tab,
     /// Home.
     Home,
+    /// Page up.
+    PageUp,
+    /// Page down.
+    PageDown,
     /// Arrow.
     Left,
     /// Arrow.
@@ -221,6 +225,8 @@ fn of(key: Key) -> Option<Action> {
         Key::Char('h' | 'H' | '?') => Action::ToggleHelp,
         Key::Char('r' | 'R') | Key::Home => Action::Reset,
         Key::Char('f' | 'F') => Action::FrameMap,
+        Key::PageDown => Action::Page(1),
+        Key::PageUp => Action::Page(-1),
         Key::Tab => Action::TogglePanels,
         Key::Escape => Action::Quit,
         _ => return None,

@@ -3,7 +3,7 @@
 //! | word | does |
 //! |---|---|
 //! | a character, as `w`, `3`, `/` | presses that key; a capital is the key with shift |
-//! | `space`, `esc`, `tab`, `home`, `left`, `right`, `up`, `down` | presses that key |
+//! | `space`, `esc`, `tab`, `home`, `pageup`, `pagedown`, `left`, `right`, `up`, `down` | presses that key |
 //! | `shift+1` to `shift+6`, `shift+KEY` | presses a key with shift |
 //! | `move=X,Y` | puts the cursor there, window pixels |
 //! | `click=X,Y` | puts the cursor there and clicks (two frames) |
@@ -101,6 +101,8 @@ fn press(word: &str) -> Result<Input, String> {
         ("esc", ..) => Key::Escape,
         ("tab", ..) => Key::Tab,
         ("home", ..) => Key::Home,
+        ("pageup", ..) => Key::PageUp,
+        ("pagedown", ..) => Key::PageDown,
         ("left", ..) => Key::Left,
         ("right", ..) => Key::Right,
         ("up", ..) => Key::Up,
@@ -110,7 +112,7 @@ fn press(word: &str) -> Result<Input, String> {
         (_, Some(character), None) => Key::Char(character),
         _ => {
             return Err(format!(
-                "`{word}` is no key; give single characters, space, esc, tab, home, left, right, up, \
+                "`{word}` is no key; give single characters, space, esc, tab, home, pageup, pagedown, left, right, up, \
                  down, shift+KEY, move=X,Y, click=X,Y, drag=X,Y,X,Y, orbit=X,Y,X,Y, wheel=N or wait"
             ));
         }

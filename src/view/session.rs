@@ -40,6 +40,8 @@ pub struct Session {
     /// The ground that the craft orbits around.
     pivot: Option<DVec3>,
     help: bool,
+    /// Pages turned in the help, and in the status line.
+    pages: [i32; 2],
     panels: bool,
     notice: Option<String>,
     changed: bool,
@@ -80,6 +82,7 @@ impl Session {
             cursor: None,
             pivot: None,
             help: false,
+            pages: [0; 2],
             panels: true,
             notice: None,
             changed: true,
@@ -134,6 +137,18 @@ impl Session {
     #[must_use]
     pub fn shows_help(&self) -> bool {
         self.help
+    }
+
+    /// Pages that were turned in the help, forth less back.
+    #[must_use]
+    pub fn help_page(&self) -> i32 {
+        self.pages[0]
+    }
+
+    /// Pages that were turned in the status line, forth less back.
+    #[must_use]
+    pub fn status_page(&self) -> i32 {
+        self.pages[1]
     }
 
     /// Whether legends and status are shown.
@@ -214,7 +229,14 @@ impl Session {
                 self.set_pace(Pace::pause);
                 return Some(Effect::Line);
             }
-            Action::ToggleHelp => self.help = !self.help,
+            Action::ToggleHelp => {
+                self.help = !self.help;
+                self.pages[0] = 0;
+            }
+            Action::Page(count) => {
+                let page = &mut self.pages[usize::from(!self.help)];
+                *page = page.wrapping_add(count);
+            }
             Action::TogglePanels => self.panels = !self.panels,
             Action::Reset => self.reset(),
             Action::FrameMap => self.frame_map(),

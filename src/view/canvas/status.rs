@@ -1,13 +1,15 @@
 //! The status line: craft, machine, time, and the pixel under the cursor.
 
+use embedded_graphics::pixelcolor::Rgb888;
+
 use crate::frame::Hit;
 use crate::scene::{Deformation, Extent};
 use crate::study::error::Sheet;
 use crate::study::probe::Probe;
 
 use super::legend::figure;
-use super::panel::{MARGIN, height, rows, write};
-use super::{ALERT, Canvas, TEXT};
+use super::panel::{MARGIN, height, rows, width, write};
+use super::{ALERT, Canvas, MARK, TEXT};
 use crate::view::camera;
 use crate::view::pane::Source;
 use crate::view::session::Session;
@@ -23,37 +25,53 @@ pub(super) fn draw(
     let font = canvas.font();
     let (wide, tall) = (canvas.size().0 as i32, canvas.size().1 as i32);
     let space = wide - 2 * MARGIN;
-    let mut lines: Vec<(String, _)> = Vec::new();
-    let mut add = |items: &[String], color| {
-        lines.extend(rows(font, items, "   ", space).into_iter().map(|row| (row, color)));
-    };
+    let mut parts: Vec<(Vec<String>, Rgb888)> = Vec::new();
     if let Some(trouble) = &snapshot.facts.trouble {
-        add(&[format!("cannot draw: {trouble}")], ALERT);
+        parts.push((vec![format!("cannot draw: {trouble}")], ALERT));
     }
     if let Some(notice) = session.notice() {
-        add(&[notice.to_owned()], ALERT);
+        parts.push((vec![notice.to_owned()], ALERT));
     }
     match &snapshot.facts.probe {
         Some(found) if session.pointed() == Some((found.column, found.line)) => {
-            add(&probe(session, found), TEXT);
+            parts.push((probe(session, found), TEXT));
         }
         _ => {}
     }
-    add(&craft(session), TEXT);
-    add(&work(session, snapshot, timed), TEXT);
+    parts.push((craft(session), TEXT));
+    parts.push((work(session, snapshot, timed), TEXT));
+    let lines = |space: i32| -> Vec<(String, Rgb888)> {
+        let of = |(items, color): &(Vec<String>, Rgb888)| {
+            let color = *color;
+            rows(font, items, "   ", space).into_iter().map(move |row| (row, color))
+        };
+        parts.iter().flat_map(of).collect()
+    };
 
     let row = height(font);
-    // In a small window the picture keeps two thirds; what is most urgent stands first.
+    // In a small window the picture keeps two thirds; what is most urgent stands first, the rest on
+    // further pages.
     let most = ((tall / 3 - 2 * MARGIN) / row).max(0) as usize;
-    lines.truncate(most);
-    if lines.is_empty() {
+    let mut all = lines(space);
+    if most == 0 || all.is_empty() {
         return tall;
     }
+    let mut mark = String::new();
+    if all.len() > most {
+        all = lines(space - width(font, "PageDown 9/9 "));
+        let pages = all.len().div_ceil(most);
+        let page = session.status_page().rem_euclid(pages as i32) as usize;
+        mark = format!("PageDown {}/{pages}", page + 1);
+        all = all.split_off(page * most);
+        all.truncate(most);
+    }
+    let lines = all;
     let top = tall - lines.len() as i32 * row - 2 * MARGIN;
     canvas.shade(0, top, wide as u32, (tall - top) as u32);
     for (at, (text, color)) in lines.iter().enumerate() {
         write(canvas, font, MARGIN, top + MARGIN + at as i32 * row, text, *color);
     }
+    write(canvas, font, wide - MARGIN - width(font, &mark), top + MARGIN, &mark, MARK);
     top
 }
 

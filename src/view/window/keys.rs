@@ -74,6 +74,8 @@ impl Keys {
             minifb::Key::Escape => Key::Escape,
             minifb::Key::Tab => Key::Tab,
             minifb::Key::Home => Key::Home,
+            minifb::Key::PageUp => Key::PageUp,
+            minifb::Key::PageDown => Key::PageDown,
             _ => return,
         };
         self.pressed.push(named);

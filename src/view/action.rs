@@ -18,6 +18,12 @@ pub enum Side {
 pub enum Action {
     /// Show another picture on a side.
     Picture(Side, Picture),
+    /// Show errors on a side, or there the next part of them.
+    NextErrors(Side),
+    /// The bright end of ramps of errors stands for four times as much (1), or for a quarter (-1).
+    ErrorRange(i32),
+    /// It stands for what is drawn again.
+    FreeErrorRange,
     /// Draw a side by the next engine.
     NextEngine(Side),
     /// The next shape of the finite function.

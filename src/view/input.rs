@@ -200,6 +200,11 @@ fn of(key: Key) -> Option<Action> {
     };
     Some(match key {
         Key::Char(digit @ '1'..='6') => return picture(Side::Left, digit as u8 - b'0'),
+        Key::Char('7') => Action::NextErrors(Side::Left),
+        Key::Shifted(7) => Action::NextErrors(Side::Right),
+        Key::Char('8') => Action::ErrorRange(-1),
+        Key::Char('9') => Action::ErrorRange(1),
+        Key::Char('0') => Action::FreeErrorRange,
         Key::Shifted(digit) => return picture(Side::Right, digit),
         Key::Char('g') => Action::NextEngine(Side::Left),
         Key::Char('G') => Action::NextEngine(Side::Right),

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::pane::Pane;
 use crate::scene::Scene;
+use crate::sink::picture::ErrorView;
 
 /// What is to be drawn.
 #[derive(Clone, Debug)]
@@ -15,6 +16,8 @@ pub struct Order {
     pub full: bool,
     /// Left and, where there is a split, right.
     pub panes: Vec<Pane>,
+    /// Pixels at the bright end of pictures of errors; `None`: as what is drawn needs.
+    pub error_high: Option<f64>,
     /// Lines as they are granted; otherwise whole frames.
     pub by_lines: bool,
 }
@@ -23,6 +26,12 @@ pub struct Order {
 pub const MAX_PIXELS: usize = 1 << 24;
 
 impl Order {
+    /// How a pane shows errors.
+    #[must_use]
+    pub fn errors(&self, pane: usize) -> ErrorView {
+        ErrorView { part: self.panes[pane].errors(), high: self.error_high }
+    }
+
     /// Whether it asks for the same frame as another, whatever is shown of it.
     #[must_use]
     pub fn is_view_of(&self, other: &Self) -> bool {

@@ -9,7 +9,7 @@ use super::pane::Source;
 use super::renderer::{End, Job, Renderer};
 use super::shelf::{Shelf, Task};
 use super::snapshot::{FrameRate, Image, LineState, Timing};
-use crate::engine::Machine;
+use crate::engine::{Engine, Machine};
 use crate::plan::Plan;
 use crate::setup::SetupError;
 use crate::study::error::Sample;
@@ -117,7 +117,10 @@ impl Renderer {
             }
             self.complete(job, task, shelf, lines)?;
             let spent = shelf.progress(task).seconds;
-            let (Source::Frame(engine) | Source::Error(engine)) = task.source;
+            let engine = match task.source {
+                Source::Frame(engine) => engine,
+                Source::Error => Engine::Processor,
+            };
             let set_up = machine.set_up_time(engine)?.coefficients.as_secs_f64();
             timings.push(Timing { source: task.source, ms: 1e3 * (set_up + spent) });
         }

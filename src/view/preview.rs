@@ -38,13 +38,13 @@ impl Renderer {
             let in_time = |f: &usize| self.cost(task.source) * pixels / (f * f) as f64 <= share;
             let factor = match task.source {
                 // Below the falling scan the same coarse picture lies every time.
-                Source::Frame(Engine::Oracle) | Source::Error(_) if order.by_lines => 16,
+                Source::Frame(Engine::Oracle) | Source::Error if order.by_lines => 16,
                 Source::Frame(_) if order.by_lines => 4,
                 _ => (0..16).map(|power| 1 << power).find(in_time).unwrap_or(1),
             };
             match task.source {
                 Source::Frame(_) => self.coarse(job, task, factor)?,
-                Source::Error(engine) => self.sampled(job, task, engine, factor.max(2))?,
+                Source::Error => self.sampled(job, task, factor.max(2))?,
             }
         }
         self.show(order, desk, Some(0));
@@ -68,7 +68,6 @@ impl Renderer {
         &mut self,
         job: Job<'_>,
         task: &Task,
-        engine: Engine,
         factor: usize,
     ) -> Result<(), End> {
         let geometry = &job.machine.plan().geometry;
@@ -78,7 +77,7 @@ impl Renderer {
         };
         let columns = middles(geometry.columns);
         let sample = Sample { lines: middles(geometry.lines), columns };
-        let mut scan = job.machine.scan_errors(sample, engine == Engine::Real)?;
+        let mut scan = job.machine.scan_errors(sample)?;
         let band = scan.draw(u32::MAX, &|| job.desk.superseded()).ok_or(End::Superseded)?;
         self.spread(job, task, &band, factor);
         Ok(())
@@ -86,7 +85,7 @@ impl Renderer {
 
     fn spread(&mut self, job: Job<'_>, task: &Task, drawn: &Band, factor: usize) {
         for &pane in &task.panes {
-            if let Some(painted) = job.order.panes[pane].picture.of(drawn) {
+            if let Some(painted) = job.order.panes[pane].picture.with(drawn, job.order.errors(pane)) {
                 self.images[pane].spread(painted, factor);
             }
         }
@@ -94,9 +93,11 @@ impl Renderer {
 
     /// Errors take so long that they come in several passes, each twice as fine.
     pub fn refine(&mut self, job: Job<'_>, task: &Task) -> Result<(), End> {
-        let Source::Error(engine) = task.source else { return Ok(()) };
+        if task.source != Source::Error {
+            return Ok(());
+        }
         for factor in [16, 8, 4, 2] {
-            self.sampled(job, task, engine, factor)?;
+            self.sampled(job, task, factor)?;
             self.show(job.order, job.desk, Some(0));
             self.attend(job, Some(0))?;
         }

@@ -74,7 +74,7 @@ impl Renderer {
             Source::Frame(Engine::Fast) => 0.2e-6,
             Source::Frame(Engine::Processor | Engine::Real) => 0.7e-6,
             Source::Frame(Engine::Oracle) => 6e-6,
-            Source::Error(_) => 2e-5,
+            Source::Error => 2e-5,
         })
     }
 
@@ -155,7 +155,7 @@ impl Renderer {
     /// Paints what a source has drawn.
     pub fn paint(&mut self, order: &Order, task: &Task, drawn: &Band) {
         for &pane in &task.panes {
-            if let Some(painted) = order.panes[pane].picture.of(drawn) {
+            if let Some(painted) = order.panes[pane].picture.with(drawn, order.errors(pane)) {
                 self.images[pane].draw(painted);
             }
         }

@@ -163,6 +163,7 @@ impl<'a> View<'a> {
         if acted {
             self.session.resize(layout);
         }
+        self.session.see_errors(self.worker.snapshot().error_high());
         let split = self.session.split();
         for action in self.hands.actions(input, &layout, split, seconds) {
             acted = true;

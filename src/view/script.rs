@@ -4,7 +4,7 @@
 //! |---|---|
 //! | a character, as `w`, `3`, `/` | presses that key; a capital is the key with shift |
 //! | `space`, `esc`, `tab`, `home`, `pageup`, `pagedown`, `left`, `right`, `up`, `down` | presses that key |
-//! | `shift+1` to `shift+6`, `shift+KEY` | presses a key with shift |
+//! | `shift+1` to `shift+7`, `shift+KEY` | presses a key with shift |
 //! | `move=X,Y` | puts the cursor there, window pixels |
 //! | `click=X,Y` | puts the cursor there and clicks (two frames) |
 //! | `drag=X,Y,X,Y` | drags from one place to the other (four frames) |

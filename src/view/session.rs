@@ -11,7 +11,7 @@ use glam::DVec3;
 use crate::engine::Engine;
 use crate::scene::{Camera, Deformation, Scene, Screen, write};
 use crate::scene::height_map::Georeference;
-use crate::sink::picture::Picture;
+use crate::sink::picture::{ErrorPart, Picture};
 
 use super::action::{Action, Effect, Side};
 use super::camera;
@@ -30,6 +30,9 @@ pub struct Session {
     first: (Camera, Screen),
     panes: [Pane; 2],
     split: Option<f64>,
+    /// Pixels at the bright end of errors, if keys have chosen, and what is on the screen.
+    error_high: Option<f64>,
+    shown_high: Option<f64>,
     /// Of deformation 2, while another one is on.
     weight_shift: u32,
     /// The ramp of the scene, and which of those to choose from is on.
@@ -47,6 +50,9 @@ pub struct Session {
     changed: bool,
 }
 
+/// Pixels that the bright end of errors may stand for.
+const ERROR_RANGE: (f64, f64) = (1.0 / 1_073_741_824.0, 1024.0);
+
 /// Why a scene cannot be copied out.
 const NO_PATH: &str =
     "no scene file can name this map, its path is not UTF-8 text: rename its folder";
@@ -62,7 +68,7 @@ impl Session {
         engine: Engine,
         layout: Layout,
     ) -> Self {
-        let pane = Pane { engine, picture: Picture::Color };
+        let pane = Pane { engine, picture: Picture::Color, part: ErrorPart::Total };
         let right = Pane { picture: Picture::Steps, ..pane };
         let mut session = Self {
             first: (scene.camera.clone(), scene.screens[0].clone()),
@@ -77,6 +83,8 @@ impl Session {
             georeference: None,
             panes: [pane, right],
             split: None,
+            error_high: None,
+            shown_high: None,
             pace: Pace::default(),
             layout,
             cursor: None,
@@ -168,6 +176,11 @@ impl Session {
         self.notice = Some(notice);
     }
 
+    /// Takes note of the errors at the bright end of their ramp, as the screen has them.
+    pub fn see_errors(&mut self, high: Option<f64>) {
+        self.shown_high = high;
+    }
+
     /// The raster pixel (column, line) under the cursor.
     #[must_use]
     pub fn pointed(&self) -> Option<(u32, u32)> {
@@ -181,6 +194,7 @@ impl Session {
             scene: Arc::clone(&self.scene),
             full: self.full,
             panes: self.panes().to_vec(),
+            error_high: self.error_high,
             by_lines: !self.pace.is_full(),
         })
     }
@@ -208,6 +222,20 @@ impl Session {
         }
         match action {
             Action::Picture(side, picture) => self.set_pane(side, |pane| Pane { picture, ..pane }),
+            Action::NextErrors(side) => self.set_pane(side, |pane| match pane.picture {
+                Picture::Error => pane.next_part(),
+                _ => Pane { picture: Picture::Error, ..pane },
+            }),
+            Action::ErrorRange(steps) => {
+                let now = self.error_high.or(self.shown_high).unwrap_or(1.0);
+                let (least, most) = ERROR_RANGE;
+                self.error_high = Some((now * 4.0_f64.powi(steps)).clamp(least, most));
+                self.changed = true;
+            }
+            Action::FreeErrorRange => {
+                self.error_high = None;
+                self.changed = true;
+            }
             Action::NextEngine(side) => self.set_pane(side, Pane::next_engine),
             Action::NextShape => self.next_shape(),
             Action::NextDeformation => self.next_deformation(),

@@ -35,9 +35,7 @@ impl Task {
                 let cycles = engine == Engine::Processor;
                 machine.scan(engine, Wanted { first_line: 0, buffers, cycles })
             }
-            Source::Error(engine) => {
-                machine.scan_errors(Sample::all(machine.plan()), engine == Engine::Real)
-            }
+            Source::Error => machine.scan_errors(Sample::all(machine.plan())),
         }
     }
 }
@@ -66,8 +64,8 @@ impl<'a> Progress<'a> {
     }
 
     fn bytes(&self) -> usize {
-        // As much as the buffers of a pixel take, or its colour, outcome, cycles and error.
-        self.band.pixels() * if self.buffers { 90 } else { 16 }
+        // As much as the buffers of a pixel take, or its errors, or its colour, outcome and cycles.
+        self.band.pixels() * if self.buffers { 90 } else { 25 }
     }
 }
 

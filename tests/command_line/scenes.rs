@@ -198,3 +198,30 @@ fn heights_are_exaggerated_on_demand() {
         assert!(stderr.contains(names), "{arguments:?}: {stderr}");
     }
 }
+
+#[test]
+fn pictures_of_errors_are_parted_and_ranged() {
+    let folder = Folder::new();
+    let error = |name: &str, more: &[&str]| {
+        draw(&folder, "flight", name, &[&["--picture", "error"], more].concat())
+    };
+    let total = error("total", &[]);
+    assert!(total == error("named", &["--error", "total"]));
+    let algorithm = error("algorithm", &["--error", "algorithm"]);
+    let quantisation = error("quantisation", &["--error", "quantisation"]);
+    assert!(total != algorithm && algorithm != quantisation && total != quantisation);
+    let arguments = ["render", "flight", "--picture", "error", "--range", "0.5", "--size", "64x48"];
+    let output = folder.run(&[&arguments[..], &["-o", "ranged.png"]].concat());
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(stderr.contains("to 0.5"), "{stderr}");
+    for (more, names) in [
+        (&["--error", "total"][..], "--picture error"),
+        (&["--range", "1"], "--picture error"),
+        (&["--picture", "error", "--range", "0"], "above 0"),
+    ] {
+        let output = folder.run(&[&["render", "flight"][..], more].concat());
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{more:?}: {stderr}");
+        assert!(stderr.contains(names), "{more:?}: {stderr}");
+    }
+}

@@ -4,7 +4,7 @@ use super::panel::{MARGIN, height, width, wrapped, write};
 use super::{Canvas, MARK, TEXT};
 
 /// Keys and what they do, as docs/window.md has them.
-pub(super) const KEYS: [(&str, &str); 30] = [
+pub(super) const KEYS: [(&str, &str); 32] = [
     ("drag", "turn: the scene follows the mouse"),
     ("right drag", "orbit around the middle; wheel: nearer, farther"),
     ("wheel", "zoom; with Shift: move along the line of sight"),
@@ -14,9 +14,11 @@ pub(super) const KEYS: [(&str, &str); 30] = [
     ("click, X", "explain the pixel under the cursor in the terminal"),
     ("1 2 3", "colour, height, normal"),
     ("4 5 6", "steps, error against the oracle, cycles"),
+    ("7", "errors: total, algorithm, quantisation"),
+    ("8 9 0", "range of errors: finer, coarser, as needed"),
     ("G", "engine: fast, processor, real, oracle"),
     ("/", "split; drag it"),
-    ("Shift+1..6", "picture right of the split"),
+    ("Shift+1..7", "picture right of the split"),
     ("Shift+G", "engine right of the split"),
     ("K", "kernel: cosine, parabola, exponential, hat"),
     ("J", "deformation 0, 1, 2"),

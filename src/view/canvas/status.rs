@@ -147,7 +147,7 @@ fn pace(session: &Session, snapshot: &Snapshot) -> String {
 fn time(Timing { source, ms }: &Timing) -> String {
     let name = match source {
         Source::Frame(engine) => engine.name(),
-        Source::Error(_) => "errors",
+        Source::Error => "errors",
     };
     if *ms < 10.0 { format!("{name} {ms:.1} ms") } else { format!("{name} {ms:.0} ms") }
 }

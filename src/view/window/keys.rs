@@ -119,7 +119,7 @@ fn repeats(key: minifb::Key) -> bool {
 
 fn digit(key: minifb::Key) -> Option<u8> {
     use minifb::Key as K;
-    let digits = [K::Key1, K::Key2, K::Key3, K::Key4, K::Key5, K::Key6];
+    let digits = [K::Key1, K::Key2, K::Key3, K::Key4, K::Key5, K::Key6, K::Key7];
     digits.iter().position(|&digit| digit == key).map(|index| index as u8 + 1)
 }
 

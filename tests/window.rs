@@ -2,8 +2,16 @@
 
 #[path = "window/display.rs"]
 mod display;
+#[path = "window/errors.rs"]
+mod errors;
+#[path = "window/flight.rs"]
+mod flight;
 #[path = "window/golden.rs"]
 mod golden;
+#[path = "window/looks.rs"]
+mod looks;
+#[path = "window/measure.rs"]
+mod measure;
 #[path = "window/scan.rs"]
 mod scan;
 mod support;
@@ -205,7 +213,7 @@ fn the_pixel_under_the_cursor_is_that_of_the_frame() {
     assert!((1..4).contains(&points), "{points} of 4 pixels show ground");
     assert!(worker.snapshot().facts.frame_rate.is_some_and(|m| m.fps > 1.0 && m.counted == 16));
     // A whole frame of the processor has all its cycles counted.
-    let pane = Pane { engine: Engine::Processor, picture: Picture::Color };
+    let pane = Pane { engine: Engine::Processor, ..order.panes[0] };
     worker.order(Order { panes: vec![pane], ..order });
     worker.finish();
     assert!(worker.snapshot().facts.frame_rate.is_some_and(|m| m.fps > 1.0 && m.counted == 64));
@@ -301,7 +309,8 @@ fn a_new_order_and_the_end_do_not_wait_for_a_long_frame() {
     let mut session = Session::new(scene, false, Some(String::new()), Engine::Fast, layout);
     let order = session.order().unwrap();
     let worker = RenderWorker::start(order.clone()).unwrap();
-    let pane = |picture| vec![Pane { engine: Engine::Fast, picture }];
+    let first = order.panes[0];
+    let pane = |picture| vec![Pane { picture, ..first }];
     worker.order(Order { panes: pane(Picture::Error), ..order.clone() });
     std::thread::sleep(std::time::Duration::from_secs(1));
     let start = std::time::Instant::now();
@@ -318,9 +327,9 @@ proptest! {
         words in prop::collection::vec(
             prop::sample::select(vec![
                 "w", "s", "a", "d", "e", "q", "W", "1", "2", "3", "4", "5", "6", "shift+1",
-                "shift+5", "shift+6", "g", "G", "k", "j", "[", "]", "/", "space", ".", "+", "-",
-                "-", "h", "tab", "r", "left", "right", "up", "down", "shift+left", "wheel=5",
-                "wheel=-5", "move=10,10", "click=3,4", "drag=5,5,30,9", "drag=20,5,1,1", "wait",
+                "shift+5", "shift+6", "7", "shift+7", "8", "9", "0", "v", "V", "l", "O", "p", "g", "G", "k", "j", "[", "]", "/", "space", ".", "+", "-",
+                "-", "h", "tab", "r", "home", "f", "left", "right", "up", "down", "shift+left", "wheel=5",
+                "wheel=-5", "move=10,10", "click=3,4", "drag=5,5,30,9", "orbit=5,5,30,9,2", "drag=20,5,1,1", "wait",
             ]),
             0..14,
         ),

@@ -14,7 +14,7 @@ use super::scene_out::SceneOut;
 use super::{Stop, report};
 use errors::Extent;
 use crate::engine::{Band, Engine, Machine, Wanted};
-use crate::sink::picture::Picture;
+use crate::sink::picture::{ErrorPart, ErrorView, Picture};
 use crate::sink::{npz, png};
 use crate::study::error::Sample;
 
@@ -37,6 +37,15 @@ pub struct Render {
     /// What the picture shows.
     #[arg(long, value_enum, default_value_t = Picture::Color)]
     picture: Picture,
+
+    /// Which errors the picture of errors shows: of the machine, or of its two parts; `total` if not
+    /// given.
+    #[arg(long, value_enum)]
+    error: Option<ErrorPart>,
+
+    /// Pixels at the bright end of the picture of errors; as its errors need if not given.
+    #[arg(long, value_name = "PIXELS", value_parser = parse_range)]
+    range: Option<f64>,
 
     /// Write every pixel's outcome, ground point, height, normal, steps and colour.
     #[arg(long, value_name = "OUT.npz")]
@@ -72,8 +81,22 @@ struct Drawn<'a> {
     setup: Duration,
 }
 
+/// A length on the screen.
+fn parse_range(text: &str) -> Result<f64, String> {
+    let pixels = text.parse().ok().filter(|pixels| (1e-9..=1e9).contains(pixels));
+    pixels.ok_or_else(|| "give a number of pixels above 0, for example 0.01".into())
+}
+
 impl Render {
     pub fn run(&self) -> Result<(), Stop> {
+        let errors = [("--error", self.error.is_some()), ("--range", self.range.is_some())];
+        if let Some((option, _)) = errors.iter().find(|(_, given)| *given)
+            && self.picture != Picture::Error
+        {
+            return Err(Stop::BadInput(format!(
+                "{option}: it is about the picture of errors; add --picture error"
+            )));
+        }
         outputs::check(self.outputs())?;
         let planned = self.scene.load()?;
         outputs::keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
@@ -150,13 +173,14 @@ impl Render {
         let frame = &drawn.band.frame;
         let errors = match self.picture {
             Picture::Error => {
-                let scan = drawn.machine.scan_errors(Sample::all(&planned.plan), false);
+                let scan = drawn.machine.scan_errors(Sample::all(&planned.plan));
                 let scan = scan.map_err(|error| planned.refused(&error))?;
                 Some(report::while_waiting("asking the oracle", || scan.finish()))
             }
             _ => None,
         };
-        let painted = self.picture.of(errors.as_ref().unwrap_or(&drawn.band));
+        let view = ErrorView { part: self.error.unwrap_or_default(), high: self.range };
+        let painted = self.picture.with(errors.as_ref().unwrap_or(&drawn.band), view);
         let painted = painted.unwrap_or_else(|| unreachable!("it was drawn"));
         png::write(path, frame.columns, frame.lines, &painted.pixels)?;
         if let Some(legend) = painted.legend {

@@ -34,6 +34,11 @@ pub struct SceneArgs {
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
 
+    /// Draw heights N times life size, in place of surface.height.scale. Samples are metres, unless a
+    /// height file says what else they are.
+    #[arg(long, value_name = "N", value_parser = parse_exaggeration)]
+    exaggeration: Option<f64>,
+
     /// The screen (channel) to draw; the first if not given.
     #[arg(long, value_name = "NAME")]
     screen: Option<String>,
@@ -93,6 +98,14 @@ impl Planned {
 impl SceneArgs {
     /// Reads, overrides and plans the scene.
     pub fn load(&self) -> Result<Planned, Stop> {
+        let scaled = |set: &String| set.contains("height.scale") || set.contains("height=");
+        if self.exaggeration.is_some() && self.set.iter().any(scaled) {
+            return Err(Stop::BadInput(
+                "--exaggeration: it chooses surface.height.scale, which --set gives as well; leave \
+                 one of the two out"
+                    .into(),
+            ));
+        }
         let sets: Vec<String> = self.reading.sets().into_iter().chain(self.set.clone()).collect();
         let name = self.scene.first().map(String::as_str);
         let is_height_file =
@@ -100,7 +113,8 @@ impl SceneArgs {
         let framing = if name.is_some_and(is_height_file) {
             let size = self.size.as_deref().map(parse_size).transpose()?;
             let Reading { unit, height_unit, .. } = self.reading;
-            let wishes = Wishes { size, unit, height_unit_m: height_unit };
+            let exaggeration = self.exaggeration;
+            let wishes = Wishes { size, unit, height_unit_m: height_unit, exaggeration };
             let paths: Vec<&Path> = self.scene.iter().map(Path::new).collect();
             Some(framing::read(&paths, &sets, &wishes)?)
         } else {
@@ -117,6 +131,16 @@ impl SceneArgs {
             Some(framing) => framing.scene.clone(),
             None => scene::load(name, &sets)?,
         };
+        if let Some(times) = self.exaggeration
+            && framing.is_none()
+            && !scene.exaggerate(times, 1.0)
+        {
+            return Err(Stop::BadInput(format!(
+                "--exaggeration: {} has no terrain whose heights it could change; leave it out, or \
+                 give a height file or a scene with a terrain",
+                scene.name
+            )));
+        }
         for format in &self.format {
             scene.formats.push(parse_format(format)?);
         }
@@ -148,6 +172,12 @@ impl SceneArgs {
         maps.flat_map(|terrain| terrain.source.paths(self.folder())).chain([file]).collect()
     }
 
+    /// Whether this file is the (first) one that was given as the scene.
+    #[cfg(feature = "window")]
+    pub fn is(&self, file: &Path) -> bool {
+        self.scene.first().is_some_and(|first| Path::new(first) == file)
+    }
+
     /// Folder where relative paths of the scene start.
     pub fn folder(&self) -> &Path {
         let first = self.scene.first().and_then(|file| Path::new(file).parent());
@@ -170,11 +200,20 @@ impl SceneArgs {
         if let Some(screen) = &self.screen {
             option("--screen", screen);
         }
+        if let Some(times) = self.exaggeration {
+            option("--exaggeration", &times.to_string());
+        }
         if self.full {
             words.push("--full".into());
         }
         words.join(" ")
     }
+}
+
+/// Times life size.
+fn parse_exaggeration(text: &str) -> Result<f64, String> {
+    let times = text.parse().ok().filter(|times| (0.001..=1000.0).contains(times));
+    times.ok_or_else(|| "give a number from 0.001 to 1000; 1 is life size".into())
 }
 
 /// `WxH`.

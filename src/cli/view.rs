@@ -57,16 +57,18 @@ mod open {
     use super::{Stop, View};
     use crate::engine::Engine;
     use crate::scene::Scene;
+    use crate::scene::height_map::Georeference;
     use crate::sink::png;
     use crate::view::layout::Layout;
     use crate::view::order::MAX_PIXELS;
     use crate::view::run;
     use crate::view::script;
     use crate::view::session::Session;
-    use crate::view::window::Window;
+    use crate::view::window::{Screen, Window};
     use crate::view::worker::RenderWorker;
 
-    /// Largest window that opens unasked: scenes with a larger raster get a coarser one.
+    /// Largest window that opens unasked, on a screen that has so many pixels: scenes with a larger
+    /// raster get a coarser one.
     const UNASKED: (u32, u32) = (1280, 1024);
 
     impl View {
@@ -85,16 +87,21 @@ mod open {
             outputs::keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
             outputs::check_endings(self.outputs())?;
             let scene_text = self.scene_out.text(&planned)?;
-            let layout = self.layout(&planned)?;
+            let screen = Screen::find();
+            let layout = self.layout(&planned, &screen)?;
             let map = self.map(&planned.scene);
             let engine = if planned.world.wraps() { Engine::Fast } else { Engine::Processor };
             let scene = alone(&planned);
             let title = format!("{} - terraline", scene.name);
             let mut session = Session::new(scene, planned.plan.full, map, engine, layout);
+            if let Some(georeference) = self.georeference(&planned) {
+                session = session.over(georeference);
+            }
             let order = session.order().unwrap_or_else(|| unreachable!("the first one is new"));
             let worker = RenderWorker::start(order).map_err(|error| planned.refused(&error))?;
             let mut window =
                 Window::open(&title, layout.width, layout.height).map_err(no_display)?;
+            drop(screen);
             self.scene_out.write(scene_text.as_deref())?;
             for chosen in planned.framing.iter().flat_map(|framing| &framing.chosen) {
                 eprintln!("chosen: {chosen}");
@@ -119,13 +126,16 @@ mod open {
         }
 
         /// The window that shows the scene's raster, or the one asked for.
-        fn layout(&self, planned: &Planned) -> Result<Layout, Stop> {
+        fn layout(&self, planned: &Planned, shown: &Screen) -> Result<Layout, Stop> {
             let screen = &planned.plan.screen;
             let (mut columns, mut lines) = (screen.columns, screen.lines);
             let scale = self.scale;
+            let shown = shown.size();
             if !self.scene.asks_for_size() {
+                let (wide, tall) = shown.unwrap_or(UNASKED);
                 let fit = |pixels: u32, most: u32| f64::from(most) / f64::from(pixels * scale);
-                let share = fit(columns, UNASKED.0).min(fit(lines, UNASKED.1)).min(1.0);
+                let across = fit(columns, wide.min(UNASKED.0));
+                let share = across.min(fit(lines, tall.min(UNASKED.1))).min(1.0);
                 let part = |pixels: u32| ((f64::from(pixels) * share) as u32).max(1);
                 (columns, lines) = (part(columns), part(lines));
             }
@@ -139,7 +149,24 @@ mod open {
                 )));
             }
             let side = |pixels: u32| (pixels * scale) as usize;
+            if let Some((wide, tall)) = shown
+                && (columns * scale > wide || lines * scale > tall)
+            {
+                eprintln!(
+                    "note: the screen has {wide}x{tall} pixels, the window asked for {}x{}: parts of \
+                     it will not be seen",
+                    columns * scale,
+                    lines * scale
+                );
+            }
             Ok(Layout::new(side(columns), side(lines), scale as usize))
+        }
+
+        /// Where the map lies, if the scene was chosen for a height file and still shows that file.
+        fn georeference(&self, planned: &Planned) -> Option<Georeference> {
+            let (framing, terrain) = (planned.framing.as_ref()?, planned.scene.terrain()?);
+            let shown = self.scene.folder().join(&terrain.source.file);
+            self.scene.is(&shown).then(|| framing.georeference.clone())
         }
 
         /// The scene's height map as a path that holds from any folder; `None` if it is no text.

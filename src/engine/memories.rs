@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use crate::fast;
 use crate::fast::enter::Enterable;
 use crate::plan::{Plan, SurfacePlan, TerrainPlan};
-use crate::scene::Scene;
+use crate::scene::{Scene, Surface};
 use crate::setup::{Memory, Setup, SetupError};
 use crate::word::{Complete, World};
 
@@ -123,7 +123,15 @@ impl Memories {
         };
         let maps: String =
             plan.surfaces.iter().filter_map(SurfacePlan::terrain).map(of_map).collect();
-        let key = format!("{world:?} {:?} {:?} {}{maps}", scene.kernel, plan.words, plan.full);
+        // The same samples may stand for other heights.
+        let heights: Vec<_> = scene
+            .surfaces
+            .iter()
+            .filter_map(Surface::terrain)
+            .map(|terrain| (terrain.offset, terrain.scale))
+            .collect();
+        let Plan { words, full, .. } = plan;
+        let key = format!("{world:?} {:?} {words:?} {full}{maps} {heights:?}", scene.kernel);
         let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         {
             let mut kept = kept();

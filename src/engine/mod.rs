@@ -15,5 +15,5 @@ pub use list::Engine;
 pub use machine::{Machine, WithSetup};
 pub use memories::{Memories, SetUpTime};
 pub use overflows::Overflows;
-pub use scan::{Band, Scan, Stop, Wanted};
+pub use scan::{Band, ErrorParts, Scan, Stop, Wanted};
 pub use world::FixedWorld;

@@ -30,6 +30,17 @@ pub struct Wanted {
     pub cycles: bool,
 }
 
+/// Errors of a pixel in pixels; NaN where there are none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorParts {
+    /// Of the machine, against the oracle.
+    pub total: f64,
+    /// Of its units in f64, against the oracle.
+    pub algorithm: f64,
+    /// Of the machine, against its units in f64.
+    pub quantisation: f64,
+}
+
 /// Values of some whole lines.
 #[derive(Debug, Default)]
 pub struct Band {
@@ -41,8 +52,8 @@ pub struct Band {
     pub cycles_so_far: u64,
     /// Overflows, where registers may have any.
     pub overflows: Overflows,
-    /// Errors in pixels, if they are measured.
-    pub errors: Vec<f64>,
+    /// Errors, if they are measured.
+    pub errors: Vec<ErrorParts>,
     /// Silhouette pixels, if errors are measured.
     pub silhouettes: Vec<bool>,
 }

@@ -3,7 +3,8 @@
 //! The scene is written as TOML and read like any other, so what [`Framing::file`] hands out draws
 //! the same picture.
 
-mod ramp;
+pub mod overlook;
+pub mod ramp;
 mod reason;
 mod view;
 
@@ -20,6 +21,7 @@ use super::maps::{MapSource, ReadMap};
 use super::shown::shown_path;
 use super::tables::Scene;
 use super::{set, write};
+pub use view::PITCH;
 use view::View;
 
 /// The raster of the screen where the user gives none.
@@ -54,11 +56,14 @@ pub struct Wishes {
     pub unit: Option<CoordinateUnit>,
     /// Metres per unit of height.
     pub height_unit_m: Option<f64>,
+    /// How many times life size heights are drawn.
+    pub exaggeration: Option<f64>,
 }
 
 /// Reads a height file, or several that make one map, and chooses a scene for it.
 ///
-/// Camera, exaggeration and colours are chosen before the `--set` options are applied.
+/// Camera, exaggeration, unless it is asked for as times life size, and colours are chosen before the
+/// `--set` options are applied.
 ///
 /// # Errors
 /// If a file is no height map, the files do not fit, the heights are too large for a scene, or an option does
@@ -98,7 +103,8 @@ pub fn read(paths: &[&Path], sets: &[String], wishes: &Wishes) -> Result<Framing
         ));
     };
     let HeightFile { map, georeference, every, mut notes, .. } = file;
-    let view = View::new(&map, &georeference, wishes.size.unwrap_or(SIZE))
+    let size = wishes.size.unwrap_or(SIZE);
+    let view = View::new(&map, &georeference, size, wishes.exaggeration)
         .map_err(|(reason, remedy)| unreadable(path, reason, remedy))?;
     if reason::is_set(sets, "surface.map") {
         // Another map is drawn: nothing that was found or chosen is about it.

@@ -21,6 +21,6 @@ mod wkt;
 
 pub use error::{MAX_NODES, MAX_SIDE, MapError};
 pub use found::{Encoding, HeightFile, Storage};
-pub use georeference::Georeference;
+pub use georeference::{Coordinates, Georeference};
 pub use interpretation::{CoordinateUnit, Interpretation, Thinning, length};
 pub use map::HeightMap;

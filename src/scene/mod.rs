@@ -18,6 +18,7 @@
 pub mod builtin;
 mod camera;
 pub mod error;
+mod exaggeration;
 mod field;
 pub mod file;
 mod form;

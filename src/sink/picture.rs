@@ -3,7 +3,7 @@
 //! Every function takes plain slices, one value per pixel, and gives one sRGB triple per pixel
 //! with the range that its ramp stands for. Pixels without a value are [`NOTHING`].
 
-use crate::engine::Band;
+use crate::engine::{Band, ErrorParts};
 
 /// Colour of a pixel without a value (a miss): a dark neutral grey that no ramp passes through.
 pub const NOTHING: [u8; 3] = [56, 56, 56];
@@ -11,11 +11,50 @@ pub const NOTHING: [u8; 3] = [56, 56, 56];
 /// Colour of a silhouette pixel in a picture of errors.
 pub const SILHOUETTE: [u8; 3] = [255, 0, 255];
 
-/// Error in pixels at the lower end of the ramp of [`error`].
-pub const ERROR_LOW: f64 = 1.0 / 256.0;
+/// Upper end of the ramp of [`error`] over its lower end.
+pub const ERROR_SPAN: f64 = 1024.0;
 
-/// Error in pixels at the upper end of the ramp of [`error`].
-pub const ERROR_HIGH: f64 = 4.0;
+/// Which errors a picture shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum ErrorPart {
+    /// Fixed point against the oracle.
+    #[default]
+    Total,
+    /// The units in f64 against the oracle.
+    Algorithm,
+    /// Fixed point against the units in f64.
+    Quantisation,
+}
+
+impl ErrorPart {
+    /// Name on the command line and in legends.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Total => "total",
+            Self::Algorithm => "algorithm",
+            Self::Quantisation => "quantisation",
+        }
+    }
+
+    /// The part of a pixel's errors.
+    pub fn of(self, errors: ErrorParts) -> f64 {
+        match self {
+            Self::Total => errors.total,
+            Self::Algorithm => errors.algorithm,
+            Self::Quantisation => errors.quantisation,
+        }
+    }
+}
+
+/// How a picture shows errors.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ErrorView {
+    /// Which of them.
+    pub part: ErrorPart,
+    /// Pixels at the bright end, positive; `None`: as what is drawn needs.
+    pub high: Option<f64>,
+}
 
 /// What a picture shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -90,16 +129,26 @@ impl Picture {
         }
     }
 
-    /// The picture of what was drawn or measured; `None` if it lacks what the picture shows.
+    /// The picture of what was drawn or measured, of errors in all; `None` if it lacks what the picture
+    /// shows.
     #[must_use]
     pub fn of(self, band: &Band) -> Option<Painted> {
+        self.with(band, ErrorView::default())
+    }
+
+    /// The same, with errors shown so.
+    #[must_use]
+    pub fn with(self, band: &Band, view: ErrorView) -> Option<Painted> {
         let buffers = band.frame.buffers.as_ref();
         Some(match self {
             Self::Color => Painted { pixels: band.frame.color.clone(), legend: None },
             Self::Height => height(&buffers?.height),
             Self::Normal => normal(&buffers?.normal),
             Self::Steps => steps(&buffers?.steps),
-            Self::Error if !band.errors.is_empty() => error(&band.errors, &band.silhouettes),
+            Self::Error if !band.errors.is_empty() => {
+                let errors: Vec<f64> = band.errors.iter().map(|&e| view.part.of(e)).collect();
+                error(&errors, &band.silhouettes, view.high)
+            }
             Self::Cycles if !band.cycles.is_empty() => cycles(&band.cycles),
             Self::Error | Self::Cycles => return None,
         })
@@ -163,25 +212,36 @@ fn counts(counts: &[u32], unit: &'static str) -> Painted {
     Painted { pixels, legend }
 }
 
-/// Errors in pixels (their sign is dropped) on a logarithmic ramp from [`ERROR_LOW`] to
-/// [`ERROR_HIGH`]; NaN is [`NOTHING`], and a pixel marked in `silhouette` is [`SILHOUETTE`],
-/// whatever its error. A `silhouette` that is too short marks nothing beyond its end.
-pub fn error(errors: &[f64], silhouette: &[bool]) -> Painted {
+/// Errors in pixels (their sign is dropped) on a logarithmic ramp that ends at `high` and begins at
+/// the [`ERROR_SPAN`]th part of it; NaN is [`NOTHING`], and a pixel marked in `silhouette` is
+/// [`SILHOUETTE`], whatever its error. A `silhouette` that is too short marks nothing beyond its end.
+/// Without `high` the ramp ends at the power of two at or above the 99.5th percentile.
+pub fn error(errors: &[f64], silhouette: &[bool], high: Option<f64>) -> Painted {
+    let high = high.unwrap_or_else(|| range(errors));
+    let low = high / ERROR_SPAN;
     let marks = silhouette.iter().copied().chain(std::iter::repeat(false));
-    let span = libm::log2(ERROR_HIGH / ERROR_LOW);
+    let span = libm::log2(ERROR_SPAN);
     let pixels = errors
         .iter()
         .zip(marks)
         .map(|(&e, marked)| match e.abs() {
             _ if marked => SILHOUETTE,
             e if e.is_nan() => NOTHING,
-            e if e <= ERROR_LOW => ramp(&SEQUENCE, 0.0),
-            e => ramp(&SEQUENCE, libm::log2(e / ERROR_LOW) / span),
+            e if e <= low => ramp(&SEQUENCE, 0.0),
+            e => ramp(&SEQUENCE, libm::log2(e / low) / span),
         })
         .collect();
-    let legend =
-        Some(Legend { low: ERROR_LOW, high: ERROR_HIGH, unit: "pixels", logarithmic: true });
+    let legend = Some(Legend { low, high, unit: "pixels", logarithmic: true });
     Painted { pixels, legend }
+}
+
+/// The power of two at or above the 99.5th percentile of finite errors; 1 without any but 0.
+fn range(errors: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> =
+        errors.iter().map(|e| e.abs()).filter(|e| e.is_finite() && *e > 0.0).collect();
+    let Some(rank) = sizes.len().checked_sub(sizes.len() / 200 + 1) else { return 1.0 };
+    let (_, &mut at, _) = sizes.select_nth_unstable_by(rank, f64::total_cmp);
+    libm::exp2(libm::ceil(libm::log2(at)))
 }
 
 /// Nearest-rank 99.5th percentile of the counts that are not 0; 0 without any.
@@ -301,9 +361,9 @@ mod tests {
 
     #[test]
     fn errors_are_logarithmic_and_silhouettes_marked() {
-        let errors = [0.0, ERROR_LOW, 0.125, -4.0, f64::INFINITY, f64::NAN, 1.0, f64::NAN];
+        let errors = [0.0, 1.0 / 256.0, 0.125, -4.0, f64::INFINITY, f64::NAN, 1.0, f64::NAN];
         let marks = [false, false, false, false, false, false, true, true];
-        let painted = error(&errors, &marks);
+        let painted = error(&errors, &marks, Some(4.0));
         let expected = [
             SEQUENCE[0],
             SEQUENCE[0],
@@ -315,7 +375,10 @@ mod tests {
             SILHOUETTE,
         ];
         assert_eq!(painted.pixels, expected);
-        assert_eq!(error(&errors, &[]).pixels.len(), errors.len());
+        assert_eq!(error(&errors, &[], None).pixels.len(), errors.len());
+        let ends = |errors: &[f64]| error(errors, &[], None).legend.map(|l| (l.low, l.high));
+        assert_eq!(ends(&[0.003, -0.0011, f64::NAN]), Some((1.0 / 262_144.0, 1.0 / 256.0)));
+        assert_eq!(ends(&[0.0, f64::NAN]), Some((1.0 / 1024.0, 1.0)));
     }
 
     #[test]
@@ -336,7 +399,8 @@ mod tests {
         assert_eq!(given(&band), [true, false, false, false, false, false]);
         band.frame.buffers = Some(Default::default());
         assert_eq!(given(&band), [true, true, true, true, false, false]);
-        (band.errors, band.silhouettes, band.cycles) = (vec![0.5], vec![false], vec![1]);
+        let parts = ErrorParts { total: 0.5, algorithm: 2.0, quantisation: 8.0 };
+        (band.errors, band.silhouettes, band.cycles) = (vec![parts], vec![false], vec![1]);
         assert_eq!(given(&band), [true; 6]);
         assert_eq!(Picture::Color.of(&band).unwrap().pixels, [[1, 2, 3]]);
     }

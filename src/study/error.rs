@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::engine::{Band, Machine, Scan, Stop, WithSetup};
+use crate::engine::{Band, ErrorParts, Machine, Scan, Stop, WithSetup};
 use crate::frame::Hit;
 use crate::oracle::Oracle;
 use crate::plan::Plan;
@@ -106,17 +106,21 @@ impl Machine<'_> {
         Ok(comparison.pixels(&sample.rows(), &|| false).unwrap_or_default())
     }
 
-    /// The errors of sampled pixels, line by line: of the algorithm alone, or in all.
+    /// The errors of sampled pixels, line by line.
     ///
     /// # Errors
     /// If the scene cannot be set up in f64.
-    pub fn scan_errors(&self, sample: Sample, algorithm: bool) -> Result<Scan<'_>, SetupError> {
+    pub fn scan_errors(&self, sample: Sample) -> Result<Scan<'_>, SetupError> {
         let comparison = Comparison { machine: self, real: self.real()? };
         Ok(Scan::new(0..sample.lines.len() as u32, move |lines, stop| {
             let rows = &sample.rows()[lines.start as usize..lines.end as usize];
             let mut band = Band::default();
             for pixel in comparison.pixels(rows, stop)? {
-                band.errors.push(if algorithm { pixel.algorithm_px } else { pixel.total_px });
+                band.errors.push(ErrorParts {
+                    total: pixel.total_px,
+                    algorithm: pixel.algorithm_px,
+                    quantisation: pixel.quantisation_px,
+                });
                 band.silhouettes.push(pixel.sheet.is_silhouette());
             }
             Some(band)

@@ -27,6 +27,8 @@ pub enum Wake {
 #[derive(Default)]
 pub(super) struct State {
     pub order: Option<Order>,
+    /// The order that is being drawn.
+    drawing: Option<Order>,
     pub end: bool,
     pub lines: u32,
     pub look: Option<Option<(u32, u32)>>,
@@ -43,6 +45,8 @@ pub struct Desk {
     changed: Condvar,
     /// Set with a newer order or the end: looked at between lines, without the lock.
     superseded: AtomicBool,
+    /// Set if the newer order is of another view, or with the end.
+    outdated: AtomicBool,
 }
 
 /// Lines that the render worker takes at a time.
@@ -70,6 +74,12 @@ impl Desk {
     #[must_use]
     pub fn superseded(&self) -> bool {
         self.superseded.load(Ordering::Relaxed)
+    }
+
+    /// Whether the view being drawn is no longer wanted: nothing of its frames will be shown.
+    #[must_use]
+    pub fn outdated(&self) -> bool {
+        self.outdated.load(Ordering::Relaxed)
     }
 
     /// What is wanted, most urgent first, lines last.
@@ -134,7 +144,10 @@ impl Desk {
     pub(super) fn supersede(&self, change: impl FnOnce(&mut State)) {
         self.want(|state| {
             change(state);
+            let orders = state.order.as_ref().zip(state.drawing.as_ref());
+            let goes_on = orders.is_some_and(|(next, now)| next.is_view_of(now)) && !state.end;
             self.superseded.store(true, Ordering::Relaxed);
+            self.outdated.store(!goes_on, Ordering::Relaxed);
         });
     }
 
@@ -152,6 +165,22 @@ impl Desk {
         self.changed.notify_all();
     }
 
+    /// The order that waits, if it is of the same view as the one being drawn.
+    pub(super) fn take_order_of(&self, drawn: &Order) -> Option<Order> {
+        let mut state = self.state();
+        let goes_on = state.order.as_ref().is_some_and(|next| next.is_view_of(drawn));
+        if goes_on && !state.end { self.take(&mut state) } else { None }
+    }
+
+    /// The order that waits, which is being drawn from now on.
+    fn take(&self, state: &mut State) -> Option<Order> {
+        let order = state.order.take()?;
+        state.drawing = Some(order.clone());
+        self.superseded.store(false, Ordering::Relaxed);
+        self.outdated.store(false, Ordering::Relaxed);
+        Some(order)
+    }
+
     /// The next order; `None` at the end.
     pub(super) fn take_order(&self) -> Option<Order> {
         let mut state = self.state();
@@ -159,8 +188,7 @@ impl Desk {
             if state.end {
                 return None;
             }
-            if let Some(order) = state.order.take() {
-                self.superseded.store(false, Ordering::Relaxed);
+            if let Some(order) = self.take(&mut state) {
                 return Some(order);
             }
             state.idle = true;

@@ -16,6 +16,12 @@ pub enum Key {
     Escape,
     /// Tabulator.
     Tab,
+    /// Home.
+    Home,
+    /// Page up.
+    PageUp,
+    /// Page down.
+    PageDown,
     /// Arrow.
     Left,
     /// Arrow.
@@ -24,6 +30,10 @@ pub enum Key {
     Up,
     /// Arrow.
     Down,
+    /// The left arrow, if it went down with Shift.
+    RollLeft,
+    /// The right arrow, if it went down with Shift.
+    RollRight,
 }
 
 /// What the hands do in one tick.
@@ -31,7 +41,8 @@ pub enum Key {
 pub struct Input {
     /// Keys that went down, in order.
     pub pressed: Vec<Key>,
-    /// Keys that are down, or were for a moment: small letters and arrows.
+    /// Keys that are down, or were for a moment: small letters and arrows. One that acted with Shift
+    /// when it went down, as S does, is not among them.
     pub held: Vec<Key>,
     /// Shift is down.
     pub shift: bool,
@@ -39,6 +50,8 @@ pub struct Input {
     pub cursor: Option<(i32, i32)>,
     /// The left button is down.
     pub button: bool,
+    /// The right button is down, or what stands for it.
+    pub orbit: bool,
     /// Notches of the wheel, away from the hand.
     pub wheel: f64,
 }
@@ -52,10 +65,13 @@ const SLIP: i32 = 3;
 /// Degrees per second that arrow keys turn.
 const TURN: f64 = 40.0;
 
+/// Degrees by which a key turns the sun, and by which it lifts it.
+const SUN: (f64, f64) = (15.0, 5.0);
+
 /// Factor of shift on the speed of flight.
 const HURRY: f64 = 4.0;
 
-/// What the left button holds.
+/// What a button holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Hold {
     Nothing,
@@ -66,6 +82,10 @@ enum Hold {
         moved: bool,
     },
     Split,
+    /// The ground in the middle of the screen: since where last.
+    Ground {
+        last: (i32, i32),
+    },
 }
 
 /// Turns input into actions.
@@ -115,15 +135,30 @@ impl Hands {
             actions.push(Action::Point(input.cursor));
         }
         if input.wheel != 0.0 {
-            let dolly = input.shift;
             let wheel = input.wheel;
-            actions.push(if dolly { Action::Dolly(wheel) } else { Action::Zoom(wheel) });
+            actions.push(match self.hold {
+                Hold::Ground { .. } => Action::Approach(wheel),
+                _ if input.shift => Action::Dolly(wheel),
+                _ => Action::Zoom(wheel),
+            });
         }
         let Some(cursor) = input.cursor else {
             self.hold = Hold::Nothing;
             return;
         };
         match (input.button, self.hold) {
+            (_, Hold::Ground { last }) if input.orbit => {
+                let (right, down) = (cursor.0 - last.0, cursor.1 - last.1);
+                if (right, down) != (0, 0) {
+                    actions.push(Action::Orbit(right.into(), down.into()));
+                }
+                self.hold = Hold::Ground { last: cursor };
+            }
+            (_, Hold::Ground { .. }) => self.hold = Hold::Nothing,
+            (false, Hold::Nothing) if input.orbit => {
+                actions.push(Action::HoldGround);
+                self.hold = Hold::Ground { last: cursor };
+            }
             (true, Hold::Nothing) => {
                 let near = split
                     .is_some_and(|place| (layout.across(place) as i32 - cursor.0).abs() <= GRIP);
@@ -165,6 +200,11 @@ fn of(key: Key) -> Option<Action> {
     };
     Some(match key {
         Key::Char(digit @ '1'..='6') => return picture(Side::Left, digit as u8 - b'0'),
+        Key::Char('7') => Action::NextErrors(Side::Left),
+        Key::Shifted(7) => Action::NextErrors(Side::Right),
+        Key::Char('8') => Action::ErrorRange(-1),
+        Key::Char('9') => Action::ErrorRange(1),
+        Key::Char('0') => Action::FreeErrorRange,
         Key::Shifted(digit) => return picture(Side::Right, digit),
         Key::Char('g') => Action::NextEngine(Side::Left),
         Key::Char('G') => Action::NextEngine(Side::Right),
@@ -172,6 +212,14 @@ fn of(key: Key) -> Option<Action> {
         Key::Char('j' | 'J') => Action::NextDeformation,
         Key::Char('[') => Action::Weight(-1),
         Key::Char(']') => Action::Weight(1),
+        Key::Char('v') => Action::Exaggerate(1),
+        Key::Char('V') => Action::Exaggerate(-1),
+        Key::Char('l') => Action::TurnSun(SUN.0, 0.0),
+        Key::Char('L') => Action::TurnSun(-SUN.0, 0.0),
+        Key::Char('o') => Action::TurnSun(0.0, SUN.1),
+        Key::Char('O') => Action::TurnSun(0.0, -SUN.1),
+        Key::Char('p') => Action::NextRamp(1),
+        Key::Char('P') => Action::NextRamp(-1),
         Key::Char('/') => Action::ToggleSplit,
         Key::Char(' ') => Action::TogglePause,
         Key::Char('.') => Action::OneLine,
@@ -180,7 +228,10 @@ fn of(key: Key) -> Option<Action> {
         Key::Char('S') => Action::Screenshot,
         Key::Char('c' | 'C') => Action::CopyScene,
         Key::Char('h' | 'H' | '?') => Action::ToggleHelp,
-        Key::Char('r' | 'R') => Action::Reset,
+        Key::Char('r' | 'R') | Key::Home => Action::Reset,
+        Key::Char('f' | 'F') => Action::FrameMap,
+        Key::PageDown => Action::Page(1),
+        Key::PageUp => Action::Page(-1),
         Key::Tab => Action::TogglePanels,
         Key::Escape => Action::Quit,
         _ => return None,
@@ -195,24 +246,15 @@ fn flight(input: &Input, seconds: f64) -> Vec<Action> {
     let course =
         Course { forward: letter('w', 's'), right: letter('d', 'a'), up: letter('e', 'q') };
     let mut actions = Vec::new();
-    // Shift and S together save a picture; they do not fly.
-    let course = if input.shift && course.forward < 0.0 {
-        Course { forward: 0.0, ..course }
-    } else {
-        course
-    };
     if course != Course::default() {
         actions.push(Action::Fly(course, if input.shift { HURRY * seconds } else { seconds }));
     }
-    let (left, up) = (pair(Key::Left, Key::Right), pair(Key::Up, Key::Down));
     let angle = TURN * seconds;
-    if input.shift && left != 0.0 {
-        actions.push(Action::Turn(0.0, 0.0, -left * angle));
-    } else if left != 0.0 {
-        actions.push(Action::Turn(left * angle, 0.0, 0.0));
-    }
-    if up != 0.0 {
-        actions.push(Action::Turn(0.0, up * angle, 0.0));
+    let heading = angle * pair(Key::Left, Key::Right);
+    let pitch = angle * pair(Key::Up, Key::Down);
+    let roll = angle * pair(Key::RollRight, Key::RollLeft);
+    if [heading, pitch, roll] != [0.0; 3] {
+        actions.push(Action::Turn(heading, pitch, roll));
     }
     actions
 }
@@ -244,6 +286,22 @@ mod tests {
     }
 
     #[test]
+    fn the_right_button_orbits_and_the_wheel_then_approaches() {
+        let mut hands = Hands::default();
+        let mut tick = |at: (i32, i32), orbit, wheel| {
+            let input = Input { cursor: Some(at), orbit, wheel, ..Input::default() };
+            let mut actions = hands.actions(&input, &LAYOUT, Some(0.5), 0.1);
+            actions.retain(|action| !matches!(action, Action::Point(_)));
+            actions
+        };
+        assert_eq!(tick((100, 30), true, 0.0), [Action::HoldGround]);
+        assert_eq!(tick((90, 35), true, 0.0), [Action::Orbit(-10.0, 5.0)]);
+        assert_eq!(tick((90, 35), true, 2.0), [Action::Approach(2.0)]);
+        assert_eq!(tick((95, 35), false, 0.0), []);
+        assert_eq!(tick((95, 35), false, 2.0), [Action::Zoom(2.0)]);
+    }
+
+    #[test]
     fn the_split_is_dragged_where_it_is_gripped() {
         let mut hands = Hands::default();
         assert_eq!(tick(&mut hands, (104, 30), true), []);
@@ -269,8 +327,9 @@ mod tests {
         assert_eq!(held(&[Key::Char('w')], false), [Action::Fly(forward, 0.5)]);
         assert_eq!(held(&[Key::Char('w')], true), [Action::Fly(forward, 2.0)]);
         assert_eq!(held(&[Key::Char('w'), Key::Char('s')], false), []);
-        assert_eq!(held(&[Key::Char('s')], true), []);
+        let back = Course { forward: -1.0, ..forward };
+        assert_eq!(held(&[Key::Char('s')], true), [Action::Fly(back, 2.0)]);
         assert_eq!(held(&[Key::Left], false), [Action::Turn(20.0, 0.0, 0.0)]);
-        assert_eq!(held(&[Key::Right], true), [Action::Turn(0.0, 0.0, 20.0)]);
+        assert_eq!(held(&[Key::RollRight], true), [Action::Turn(0.0, 0.0, 20.0)]);
     }
 }

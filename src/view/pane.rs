@@ -1,7 +1,7 @@
 //! What one side of the split shows: a picture, and the engine that draws it.
 
 use crate::engine::Engine;
-use crate::sink::picture::Picture;
+use crate::sink::picture::{ErrorPart, Picture};
 
 /// A picture by an engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,6 +10,8 @@ pub struct Pane {
     pub engine: Engine,
     /// The picture that it shows.
     pub picture: Picture,
+    /// Which errors it shows, where it shows errors.
+    pub part: ErrorPart,
 }
 
 /// What gives the values of a picture.
@@ -17,8 +19,8 @@ pub struct Pane {
 pub enum Source {
     /// Frames of an engine; the processor's with cycles.
     Frame(Engine),
-    /// The processor's units, in fixed point or in f64, compared with the oracle.
-    Error(Engine),
+    /// The processor's units, in fixed point and in f64, compared with the oracle.
+    Error,
 }
 
 impl Pane {
@@ -42,8 +44,7 @@ impl Pane {
             (Picture::Steps, Engine::Oracle) => {
                 Err("the oracle takes no steps: G for another engine, or another picture")
             }
-            (Picture::Error, Engine::Real) => Ok(Source::Error(Engine::Real)),
-            (Picture::Error, _) => Ok(Source::Error(Engine::Processor)),
+            (Picture::Error, _) => Ok(Source::Error),
             (_, Engine::Fast) if !fast_can => {
                 Err("the fast engine cannot draw saturating registers: G for the processor")
             }
@@ -51,17 +52,40 @@ impl Pane {
         }
     }
 
+    /// Which errors it shows: those of the units in f64 are the algorithm's alone.
+    #[must_use]
+    pub fn errors(self) -> ErrorPart {
+        if self.engine == Engine::Real { ErrorPart::Algorithm } else { self.part }
+    }
+
+    /// The same with the next part of the errors.
+    #[must_use]
+    pub fn next_part(self) -> Self {
+        let part = match self.part {
+            ErrorPart::Total => ErrorPart::Algorithm,
+            ErrorPart::Algorithm => ErrorPart::Quantisation,
+            ErrorPart::Quantisation => ErrorPart::Total,
+        };
+        Self { part, ..self }
+    }
+
     /// Head of its legend.
     #[must_use]
     pub fn title(self) -> String {
+        if self.picture == Picture::Error && self.engine != Engine::Oracle {
+            let between = match self.errors() {
+                ErrorPart::Total => "fixed - oracle",
+                ErrorPart::Algorithm => "real - oracle",
+                ErrorPart::Quantisation => "fixed - real",
+            };
+            return format!("{} error, {between}", self.errors().name());
+        }
         let picture = match self.picture {
             Picture::Color => "colour",
             other => other.name(),
         };
         let engine = match (self.picture, self.engine) {
             (Picture::Cycles, Engine::Fast) => "processor",
-            (Picture::Error, Engine::Fast | Engine::Processor) => "fixed - oracle",
-            (Picture::Error, Engine::Real) => "real - oracle",
             (_, engine) => engine.name(),
         };
         format!("{picture}, {engine}")

@@ -3,7 +3,8 @@
 use std::time::Duration;
 
 use super::pane::Source;
-use super::renderer::{End, Job, Renderer, Task};
+use super::renderer::{End, Job, Renderer};
+use super::shelf::{Shelf, Task};
 use crate::engine::{Band, Engine, Machine};
 use crate::plan::{Plan, WordClass};
 use crate::scene::{Scene, WordSize};
@@ -17,26 +18,33 @@ const PREVIEW: f64 = 0.02;
 
 impl Renderer {
     /// Coarse pictures of all panes, where the true ones would take long.
-    pub fn preview(&mut self, job: Job<'_>, tasks: &[Task]) -> Result<(), End> {
+    pub fn preview(
+        &mut self,
+        job: Job<'_>,
+        tasks: &[Task],
+        shelf: &Shelf<'_>,
+    ) -> Result<(), End> {
         let Job { order, desk, .. } = job;
         let (columns, lines) = order.raster();
         let pixels = (columns * lines) as f64;
-        let wait: f64 = tasks.iter().map(|task| self.cost(task.source) * pixels).sum();
-        if wait < PATIENCE.as_secs_f64() && !order.by_lines {
+        let missing = |task: &&Task| shelf.lines_of(task.source) < shelf.lines();
+        let tasks: Vec<&Task> = tasks.iter().filter(missing).collect();
+        let wait: f64 = tasks.iter().map(|task| self.wait(job, shelf, task.source)).sum();
+        if tasks.is_empty() || wait < PATIENCE.as_secs_f64() && !order.by_lines {
             return Ok(());
         }
-        for task in tasks {
+        for &task in &tasks {
             let share = PREVIEW / tasks.len() as f64;
             let in_time = |f: &usize| self.cost(task.source) * pixels / (f * f) as f64 <= share;
             let factor = match task.source {
                 // Below the falling scan the same coarse picture lies every time.
-                Source::Frame(Engine::Oracle) | Source::Error(_) if order.by_lines => 16,
+                Source::Frame(Engine::Oracle) | Source::Error if order.by_lines => 16,
                 Source::Frame(_) if order.by_lines => 4,
                 _ => (0..16).map(|power| 1 << power).find(in_time).unwrap_or(1),
             };
             match task.source {
                 Source::Frame(_) => self.coarse(job, task, factor)?,
-                Source::Error(engine) => self.sampled(job, task, engine, factor.max(2))?,
+                Source::Error => self.sampled(job, task, factor.max(2))?,
             }
         }
         self.show(order, desk, Some(0));
@@ -60,7 +68,6 @@ impl Renderer {
         &mut self,
         job: Job<'_>,
         task: &Task,
-        engine: Engine,
         factor: usize,
     ) -> Result<(), End> {
         let geometry = &job.machine.plan().geometry;
@@ -70,7 +77,7 @@ impl Renderer {
         };
         let columns = middles(geometry.columns);
         let sample = Sample { lines: middles(geometry.lines), columns };
-        let mut scan = job.machine.scan_errors(sample, engine == Engine::Real)?;
+        let mut scan = job.machine.scan_errors(sample)?;
         let band = scan.draw(u32::MAX, &|| job.desk.superseded()).ok_or(End::Superseded)?;
         self.spread(job, task, &band, factor);
         Ok(())
@@ -78,7 +85,7 @@ impl Renderer {
 
     fn spread(&mut self, job: Job<'_>, task: &Task, drawn: &Band, factor: usize) {
         for &pane in &task.panes {
-            if let Some(painted) = job.order.panes[pane].picture.of(drawn) {
+            if let Some(painted) = job.order.panes[pane].picture.with(drawn, job.order.errors(pane)) {
                 self.images[pane].spread(painted, factor);
             }
         }
@@ -86,9 +93,11 @@ impl Renderer {
 
     /// Errors take so long that they come in several passes, each twice as fine.
     pub fn refine(&mut self, job: Job<'_>, task: &Task) -> Result<(), End> {
-        let Source::Error(engine) = task.source else { return Ok(()) };
+        if task.source != Source::Error {
+            return Ok(());
+        }
         for factor in [16, 8, 4, 2] {
-            self.sampled(job, task, engine, factor)?;
+            self.sampled(job, task, factor)?;
             self.show(job.order, job.desk, Some(0));
             self.attend(job, Some(0))?;
         }

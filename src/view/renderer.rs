@@ -8,11 +8,11 @@ use std::time::Instant;
 use super::desk::{Desk, Wake};
 use super::order::Order;
 use super::pane::{Pane, Source};
+use super::shelf::{Shelf, Task};
 use super::snapshot::{Facts, Image, LineState, Snapshot};
-use crate::engine::{Band, Engine, Machine, Memories, Scan, Wanted};
+use crate::engine::{Band, Engine, Machine, Memories};
 use crate::plan::PlanError;
 use crate::setup::SetupError;
-use crate::study::error::Sample;
 use crate::study::explain::text::text;
 
 /// The state of the render worker.
@@ -55,33 +55,6 @@ pub(super) struct Job<'a> {
     pub desk: &'a Desk,
 }
 
-/// A source and the panes that show it.
-pub(super) struct Task {
-    pub source: Source,
-    pub panes: Vec<usize>,
-}
-
-impl Task {
-    /// The source at a machine's first line.
-    pub fn scan<'a>(
-        &self,
-        machine: &'a Machine<'_>,
-        order: &Order,
-    ) -> Result<Scan<'a>, SetupError> {
-        match self.source {
-            Source::Frame(engine) => {
-                let shows = |&pane: &usize| order.panes[pane].picture.needs_buffers();
-                let buffers = self.panes.iter().any(shows);
-                let cycles = engine == Engine::Processor;
-                machine.scan(engine, Wanted { first_line: 0, buffers, cycles })
-            }
-            Source::Error(engine) => {
-                machine.scan_errors(Sample::all(machine.plan()), engine == Engine::Real)
-            }
-        }
-    }
-}
-
 impl Renderer {
     /// With the memories that the first set-up has loaded.
     pub fn new(memories: Memories) -> Self {
@@ -101,8 +74,14 @@ impl Renderer {
             Source::Frame(Engine::Fast) => 0.2e-6,
             Source::Frame(Engine::Processor | Engine::Real) => 0.7e-6,
             Source::Frame(Engine::Oracle) => 6e-6,
-            Source::Error(_) => 2e-5,
+            Source::Error => 2e-5,
         })
+    }
+
+    /// Seconds that a source's frame is expected to take from where it is.
+    pub fn wait(&self, job: Job<'_>, shelf: &Shelf<'_>, source: Source) -> f64 {
+        let left = shelf.lines() - shelf.lines_of(source);
+        self.cost(source) * job.order.raster().0 as f64 * f64::from(left)
     }
 
     /// The pictures of an order, what lies under them kept until it is drawn over.
@@ -176,7 +155,7 @@ impl Renderer {
     /// Paints what a source has drawn.
     pub fn paint(&mut self, order: &Order, task: &Task, drawn: &Band) {
         for &pane in &task.panes {
-            if let Some(painted) = order.panes[pane].picture.of(drawn) {
+            if let Some(painted) = order.panes[pane].picture.with(drawn, order.errors(pane)) {
                 self.images[pane].draw(painted);
             }
         }

@@ -130,6 +130,8 @@ impl<'a> View<'a> {
     /// [`RunError`].
     pub fn scripted(&mut self, script: &[Input], frames: u32) -> Result<&Canvas, RunError> {
         let still = Input::default();
+        // The first frame is whole when the first key comes, however fast this computer is.
+        self.worker.finish();
         for frame in 0..frames {
             if self.glass.poll().is_none() {
                 return Err(RunError::Closed(frame, frames));
@@ -161,10 +163,16 @@ impl<'a> View<'a> {
         if acted {
             self.session.resize(layout);
         }
+        self.session.see_errors(self.worker.snapshot().error_high());
         let split = self.session.split();
         for action in self.hands.actions(input, &layout, split, seconds) {
             acted = true;
+            let was_paused = self.session.pace().is_paused();
             let effect = self.session.act(action);
+            if self.session.pace().is_paused() && !was_paused {
+                // A worker that is slower than the pace has lines left to draw.
+                self.worker.hold();
+            }
             // A line or an explanation is of the order as it is now.
             self.send_order();
             match effect {

@@ -3,11 +3,13 @@
 //! | word | does |
 //! |---|---|
 //! | a character, as `w`, `3`, `/` | presses that key; a capital is the key with shift |
-//! | `space`, `esc`, `tab`, `left`, `right`, `up`, `down` | presses that key |
-//! | `shift+1` to `shift+6`, `shift+KEY` | presses a key with shift |
+//! | `space`, `esc`, `tab`, `home`, `pageup`, `pagedown`, `left`, `right`, `up`, `down` | presses that key |
+//! | `shift+1` to `shift+7`, `shift+KEY` | presses a key with shift |
 //! | `move=X,Y` | puts the cursor there, window pixels |
 //! | `click=X,Y` | puts the cursor there and clicks (two frames) |
 //! | `drag=X,Y,X,Y` | drags from one place to the other (four frames) |
+//! | `orbit=X,Y,X,Y` | the same with the right button |
+//! | `orbit=X,Y,X,Y,N` | turns the wheel as well before the button goes up (five frames) |
 //! | `wheel=N` | turns the wheel by N notches |
 //! | `wait` | does nothing |
 
@@ -40,6 +42,23 @@ pub fn parse(text: &str) -> Result<Vec<Input>, String> {
                 frame(at(x, y, false));
                 frame(at(x, y, true));
                 frame(at(to_x, to_y, true));
+                frame(at(to_x, to_y, false));
+            }
+            Some(("orbit", places)) => {
+                let wheels = places.matches(',').count() == 4;
+                let [x, y, to_x, to_y, notches] = if wheels {
+                    numbers(word, places)?
+                } else {
+                    let [x, y, to_x, to_y] = numbers(word, places)?;
+                    [x, y, to_x, to_y, 0]
+                };
+                let held = |x, y| Input { orbit: true, ..at(x, y, false) };
+                frame(at(x, y, false));
+                frame(held(x, y));
+                frame(held(to_x, to_y));
+                if wheels {
+                    frame(Input { wheel: notches.into(), ..held(to_x, to_y) });
+                }
                 frame(at(to_x, to_y, false));
             }
             Some(("wheel", notches)) => {
@@ -81,6 +100,9 @@ fn press(word: &str) -> Result<Input, String> {
         ("space", ..) => Key::Char(' '),
         ("esc", ..) => Key::Escape,
         ("tab", ..) => Key::Tab,
+        ("home", ..) => Key::Home,
+        ("pageup", ..) => Key::PageUp,
+        ("pagedown", ..) => Key::PageDown,
         ("left", ..) => Key::Left,
         ("right", ..) => Key::Right,
         ("up", ..) => Key::Up,
@@ -90,16 +112,27 @@ fn press(word: &str) -> Result<Input, String> {
         (_, Some(character), None) => Key::Char(character),
         _ => {
             return Err(format!(
-                "`{word}` is no key; give single characters, space, esc, tab, left, right, up, \
-                 down, shift+KEY, move=X,Y, click=X,Y, drag=X,Y,X,Y, wheel=N or wait"
+                "`{word}` is no key; give single characters, space, esc, tab, home, pageup, pagedown, left, right, up, \
+                 down, shift+KEY, move=X,Y, click=X,Y, drag=X,Y,X,Y, orbit=X,Y,X,Y, wheel=N or wait"
             ));
         }
     };
     let (held, capital) = match key {
-        Key::Char(letter) => (Key::Char(letter.to_ascii_lowercase()), letter.is_ascii_uppercase()),
-        other => (other, false),
+        // It saves a picture and does not fly.
+        Key::Char('S') => (None, true),
+        Key::Char(letter) => {
+            (Some(Key::Char(letter.to_ascii_lowercase())), letter.is_ascii_uppercase())
+        }
+        Key::Left if shift => (Some(Key::RollLeft), false),
+        Key::Right if shift => (Some(Key::RollRight), false),
+        other => (Some(other), false),
     };
-    Ok(Input { pressed: vec![key], held: vec![held], shift: shift || capital, ..Input::default() })
+    Ok(Input {
+        pressed: vec![key],
+        held: held.into_iter().collect(),
+        shift: shift || capital,
+        ..Input::default()
+    })
 }
 
 #[cfg(test)]
@@ -116,15 +149,24 @@ mod tests {
         assert_eq!(frames.len(), 9);
         assert!(frames[3].shift && !frames[0].shift);
         assert_eq!(frames[3].held, [Key::Char('g')]);
+        let held = |word: &str| parse(word).unwrap()[0].held.clone();
+        assert_eq!(held("shift+left"), [Key::RollLeft]);
+        assert_eq!((held("s"), held("S")), (vec![Key::Char('s')], vec![]));
         assert!(frames[5].button && !frames[6].button);
         assert_eq!((frames[7].wheel, frames[8].cursor), (-2.0, Some((5, 6))));
         assert_eq!(parse("drag=1,2,3,4").unwrap().len(), 4);
+        let orbit = parse("orbit=1,2,3,4,-5").unwrap();
+        assert_eq!(orbit.iter().map(|frame| frame.orbit).collect::<Vec<_>>(), [
+            false, true, true, true, false
+        ]);
+        assert_eq!((orbit[3].wheel, orbit[3].cursor), (-5.0, Some((3, 4))));
+        assert_eq!(parse("orbit=1,2,3,4").unwrap().len(), 4);
         assert_eq!(parse("  ").unwrap(), []);
     }
 
     #[test]
     fn what_is_no_key_is_named() {
-        for word in ["ww", "move=1", "wheel=x", "drag=1,2", "shift+", "jump=3", "move=9999999,0"] {
+        for word in ["ww", "move=1", "wheel=x", "drag=1,2", "orbit=1,2,3", "shift+", "jump=3", "move=9999999,0"] {
             let error = parse(&format!("w {word}")).unwrap_err();
             assert!(error.contains(word), "{error}");
         }

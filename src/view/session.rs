@@ -1,53 +1,61 @@
 //! What is being looked at and how. Actions change it; nothing here draws or waits.
 
+mod flight;
+mod looks;
+mod orbit;
+
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::engine::Engine;
-use crate::scene::{Camera, Deformation, KernelShape, Scene, Screen, Surface, write};
-use crate::sink::picture::Picture;
+use crate::scene::{Camera, Deformation, Scene, Screen, write};
+use crate::scene::height_map::Georeference;
+use crate::sink::picture::{ErrorPart, Picture};
 
 use super::action::{Action, Effect, Side};
 use super::camera;
-use super::ground;
 use super::layout::Layout;
+use super::measure::Measure;
 use super::order::Order;
 use super::pace::Pace;
 use super::pane::Pane;
 
 /// The state of the window.
 pub struct Session {
-    scene: Scene,
+    scene: Arc<Scene>,
     full: bool,
     map: Option<String>,
+    georeference: Option<Georeference>,
     first: (Camera, Screen),
     panes: [Pane; 2],
     split: Option<f64>,
+    /// Pixels at the bright end of errors, if keys have chosen, and what is on the screen.
+    error_high: Option<f64>,
+    shown_high: Option<f64>,
     /// Of deformation 2, while another one is on.
     weight_shift: u32,
+    /// The ramp of the scene, and which of those to choose from is on.
+    ramp: (Vec<[u8; 3]>, usize),
     pace: Pace,
     layout: Layout,
     cursor: Option<(i32, i32)>,
+    /// The ground that the craft orbits around.
+    pivot: Option<DVec3>,
     help: bool,
+    /// Pages turned in the help, and in the status line.
+    pages: [i32; 2],
     panels: bool,
     notice: Option<String>,
     changed: bool,
 }
 
-/// Notch of the wheel along the line of sight, seconds of flight.
-const DOLLY_SECONDS: f64 = 0.25;
-
-/// Speed: this share of the height above ground a second, and that of the map's width.
-const SPEED: (f64, f64) = (0.5, 1.0 / 300.0);
+/// Pixels that the bright end of errors may stand for.
+const ERROR_RANGE: (f64, f64) = (1.0 / 1_073_741_824.0, 1024.0);
 
 /// Why a scene cannot be copied out.
 const NO_PATH: &str =
     "no scene file can name this map, its path is not UTF-8 text: rename its folder";
-
-/// Eyes are kept above the ground by this share of a cell.
-const CLEARANCE: f64 = 0.01;
-
-/// Largest d of a weight 2^-d that a key reaches; the words have no more bits.
-const LARGEST_SHIFT: u32 = 24;
 
 impl Session {
     /// A scene whose first screen is looked at. `map` is the path of its height map for scenes
@@ -60,7 +68,7 @@ impl Session {
         engine: Engine,
         layout: Layout,
     ) -> Self {
-        let pane = Pane { engine, picture: Picture::Color };
+        let pane = Pane { engine, picture: Picture::Color, part: ErrorPart::Total };
         let right = Pane { picture: Picture::Steps, ..pane };
         let mut session = Self {
             first: (scene.camera.clone(), scene.screens[0].clone()),
@@ -68,21 +76,39 @@ impl Session {
                 Deformation::TowardHat { weight_shift } => weight_shift,
                 _ => 2,
             },
-            scene,
+            ramp: (scene.color.ramp.clone(), 0),
+            scene: Arc::new(scene),
             full,
             map,
+            georeference: None,
             panes: [pane, right],
             split: None,
+            error_high: None,
+            shown_high: None,
             pace: Pace::default(),
             layout,
             cursor: None,
+            pivot: None,
             help: false,
+            pages: [0; 2],
             panels: true,
             notice: None,
             changed: true,
         };
         session.resize(layout);
         session
+    }
+
+    /// The same, over the map of a file that says where it lies.
+    #[must_use]
+    pub fn over(self, georeference: Georeference) -> Self {
+        Self { georeference: Some(georeference), ..self }
+    }
+
+    /// What its lengths and places are outside of the scene.
+    #[must_use]
+    pub fn measure(&self) -> Measure<'_> {
+        Measure::new(&self.scene, self.georeference.as_ref())
     }
 
     /// The scene as it is now.
@@ -121,6 +147,18 @@ impl Session {
         self.help
     }
 
+    /// Pages that were turned in the help, forth less back.
+    #[must_use]
+    pub fn help_page(&self) -> i32 {
+        self.pages[0]
+    }
+
+    /// Pages that were turned in the status line, forth less back.
+    #[must_use]
+    pub fn status_page(&self) -> i32 {
+        self.pages[1]
+    }
+
     /// Whether legends and status are shown.
     #[must_use]
     pub fn shows_panels(&self) -> bool {
@@ -138,6 +176,11 @@ impl Session {
         self.notice = Some(notice);
     }
 
+    /// Takes note of the errors at the bright end of their ramp, as the screen has them.
+    pub fn see_errors(&mut self, high: Option<f64>) {
+        self.shown_high = high;
+    }
+
     /// The raster pixel (column, line) under the cursor.
     #[must_use]
     pub fn pointed(&self) -> Option<(u32, u32)> {
@@ -148,9 +191,10 @@ impl Session {
     /// What is to be drawn, if that is something else than at the last call.
     pub fn order(&mut self) -> Option<Order> {
         std::mem::take(&mut self.changed).then(|| Order {
-            scene: Arc::new(self.scene.clone()),
+            scene: Arc::clone(&self.scene),
             full: self.full,
             panes: self.panes().to_vec(),
+            error_high: self.error_high,
             by_lines: !self.pace.is_full(),
         })
     }
@@ -161,8 +205,8 @@ impl Session {
         let screen = &self.scene.screens[0];
         let (columns, lines) = (layout.columns as u32, layout.lines as u32);
         if (screen.columns, screen.lines) != (columns, lines) {
-            self.scene.screens[0] = screen.resized(columns, lines);
-            self.changed = true;
+            let screen = screen.resized(columns, lines);
+            self.change_scene().screens[0] = screen;
         }
     }
 
@@ -178,10 +222,27 @@ impl Session {
         }
         match action {
             Action::Picture(side, picture) => self.set_pane(side, |pane| Pane { picture, ..pane }),
+            Action::NextErrors(side) => self.set_pane(side, |pane| match pane.picture {
+                Picture::Error => pane.next_part(),
+                _ => Pane { picture: Picture::Error, ..pane },
+            }),
+            Action::ErrorRange(steps) => {
+                let now = self.error_high.or(self.shown_high).unwrap_or(1.0);
+                let (least, most) = ERROR_RANGE;
+                self.error_high = Some((now * 4.0_f64.powi(steps)).clamp(least, most));
+                self.changed = true;
+            }
+            Action::FreeErrorRange => {
+                self.error_high = None;
+                self.changed = true;
+            }
             Action::NextEngine(side) => self.set_pane(side, Pane::next_engine),
             Action::NextShape => self.next_shape(),
             Action::NextDeformation => self.next_deformation(),
             Action::Weight(step) => self.add_weight(step),
+            Action::Exaggerate(steps) => self.exaggerate(steps),
+            Action::TurnSun(east, up) => self.turn_sun(east, up),
+            Action::NextRamp(steps) => self.next_ramp(steps),
             Action::ToggleSplit => {
                 self.split = if self.split.is_some() { None } else { Some(0.5) };
                 self.changed = true;
@@ -196,14 +257,17 @@ impl Session {
                 self.set_pace(Pace::pause);
                 return Some(Effect::Line);
             }
-            Action::ToggleHelp => self.help = !self.help,
-            Action::TogglePanels => self.panels = !self.panels,
-            Action::Reset => {
-                self.scene.camera = self.first.0.clone();
-                let Layout { columns, lines, .. } = self.layout;
-                self.scene.screens[0] = self.first.1.resized(columns as u32, lines as u32);
-                self.changed = true;
+            Action::ToggleHelp => {
+                self.help = !self.help;
+                self.pages[0] = 0;
             }
+            Action::Page(count) => {
+                let page = &mut self.pages[usize::from(!self.help)];
+                *page = page.wrapping_add(count);
+            }
+            Action::TogglePanels => self.panels = !self.panels,
+            Action::Reset => self.reset(),
+            Action::FrameMap => self.frame_map(),
             Action::Drag(right, down) => {
                 let degrees =
                     camera::degrees_per_pixel(&self.scene.screens[0]) / self.layout.scale as f64;
@@ -212,14 +276,11 @@ impl Session {
             Action::Turn(heading, pitch, roll) => {
                 self.fly(|craft, _| camera::turn(craft, heading, pitch, roll));
             }
-            Action::Zoom(notches) => {
-                camera::zoom(&mut self.scene.screens[0], notches);
-                self.changed = true;
-            }
-            Action::Dolly(notches) => {
-                let distance = self.speed() * DOLLY_SECONDS * notches;
-                self.fly(|craft, grain| camera::dolly(craft, distance, grain));
-            }
+            Action::Zoom(notches) => camera::zoom(&mut self.change_scene().screens[0], notches),
+            Action::Dolly(notches) => self.dolly(notches),
+            Action::HoldGround => self.hold_ground(),
+            Action::Orbit(right, down) => self.orbit(right, down),
+            Action::Approach(notches) => self.approach(notches),
             Action::Fly(course, seconds) => {
                 let distance = self.speed() * seconds;
                 self.fly(|craft, grain| camera::fly(craft, course, distance, grain));
@@ -244,6 +305,12 @@ impl Session {
         None
     }
 
+    /// The scene, to change it: what was drawn of it is then of no use.
+    fn change_scene(&mut self) -> &mut Scene {
+        self.changed = true;
+        Arc::make_mut(&mut self.scene)
+    }
+
     fn set_pane(&mut self, side: Side, change: impl FnOnce(Pane) -> Pane) {
         if side == Side::Right && self.split.is_none() {
             self.split = Some(0.5);
@@ -258,100 +325,5 @@ impl Session {
         change(&mut self.pace);
         // Between two speeds the scan goes on where it is.
         self.changed |= before != self.pace.is_full();
-    }
-
-    /// Whether the scene has a kernel; says so if it has none.
-    fn has_kernel(&mut self) -> bool {
-        let terrain = self.scene.terrain().is_some();
-        if !terrain {
-            self.notice = Some("a plane has no kernel".into());
-        }
-        terrain
-    }
-
-    fn next_shape(&mut self) {
-        if !self.has_kernel() {
-            return;
-        }
-        self.scene.kernel.shape = match self.scene.kernel.shape {
-            KernelShape::Cosine => KernelShape::Parabola,
-            KernelShape::Parabola => KernelShape::Exponential,
-            KernelShape::Exponential => KernelShape::Hat,
-            KernelShape::Hat => KernelShape::Cosine,
-        };
-        self.kernel_changed();
-    }
-
-    fn next_deformation(&mut self) {
-        if !self.has_kernel() {
-            return;
-        }
-        let weight_shift = self.weight_shift;
-        self.scene.kernel.deformation = match self.scene.kernel.deformation {
-            Deformation::None => Deformation::Stretch,
-            Deformation::Stretch => Deformation::TowardHat { weight_shift },
-            Deformation::TowardHat { .. } => Deformation::None,
-        };
-        self.kernel_changed();
-    }
-
-    fn add_weight(&mut self, step: i32) {
-        if !self.has_kernel() {
-            return;
-        }
-        let Deformation::TowardHat { weight_shift } = self.scene.kernel.deformation else {
-            self.notice = Some("only deformation 2 has a weight: press J".into());
-            return;
-        };
-        // A scene may ask for more than the keys reach.
-        let largest = LARGEST_SHIFT.max(weight_shift);
-        let weight_shift = weight_shift.saturating_add_signed(step).min(largest);
-        self.weight_shift = weight_shift;
-        self.scene.kernel.deformation = Deformation::TowardHat { weight_shift };
-        self.kernel_changed();
-    }
-
-    fn kernel_changed(&mut self) {
-        self.changed = true;
-        self.keep_above_ground();
-    }
-
-    /// Changes the camera; the function is given the grain of positions.
-    fn fly(&mut self, change: impl FnOnce(&mut Camera, f64)) {
-        let grain = self.scene.surfaces.iter().map(Surface::grain).fold(f64::INFINITY, f64::min);
-        change(&mut self.scene.camera, grain);
-        self.keep_above_ground();
-        self.changed = true;
-    }
-
-    /// Scene units per second.
-    fn speed(&self) -> f64 {
-        let height = self.eye_above_ground().map_or(0.0, f64::abs);
-        let width = self.scene.surfaces.iter().map(Surface::width).fold(0.0, f64::max);
-        SPEED.0 * height + SPEED.1 * width
-    }
-
-    /// Height of the eye above the surface, scene units; `None` beside the map.
-    fn eye_above_ground(&self) -> Option<f64> {
-        let eye = self.eye();
-        ground::height(&self.scene, eye).map(|height| eye.y - height)
-    }
-
-    /// Centre of projection, scene units.
-    #[must_use]
-    pub fn eye(&self) -> glam::DVec3 {
-        crate::plan::geometry::Geometry::new(&self.scene.camera, &self.scene.screens[0]).eye
-    }
-
-    /// No engine draws from under the ground of a height map: the craft is lifted above it.
-    fn keep_above_ground(&mut self) {
-        let Some(terrain) = self.scene.terrain() else { return };
-        let clearance = CLEARANCE * terrain.cell.max_element();
-        if let Some(above) = self.eye_above_ground()
-            && above < clearance
-        {
-            self.scene.camera.position.y += clearance - above;
-            self.notice = Some("kept above the ground: E climbs".into());
-        }
     }
 }

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::pane::{Pane, Source};
-use crate::sink::picture::{Legend, Painted};
+use crate::sink::picture::{Legend, Painted, Picture};
 use crate::study::probe::Probe;
 
 /// Colour of pixels that nothing has been drawn on.
@@ -155,13 +155,23 @@ pub struct Snapshot {
     pub by_lines: bool,
 }
 
+impl Snapshot {
+    /// Pixels at the bright end of the first picture of errors.
+    #[must_use]
+    pub fn error_high(&self) -> Option<f64> {
+        let errors = self.images.iter().find(|image| image.pane.picture == Picture::Error)?;
+        Some(errors.legend?.high)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::engine::Engine;
-    use crate::sink::picture::Picture;
+    use crate::sink::picture::{ErrorPart, Picture};
 
-    const PANE: Pane = Pane { engine: Engine::Fast, picture: Picture::Color };
+    const PANE: Pane =
+        Pane { engine: Engine::Fast, picture: Picture::Color, part: ErrorPart::Total };
 
     fn painted(values: impl IntoIterator<Item = u8>) -> Painted {
         Painted { pixels: values.into_iter().map(|v| [v; 3]).collect(), legend: None }

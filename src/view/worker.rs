@@ -34,7 +34,7 @@ impl RenderWorker {
             let _last = LastWord(&theirs);
             let mut renderer = Renderer::new(memories);
             while let Some(order) = theirs.take_order() {
-                renderer.draw(&order, &theirs);
+                renderer.draw(order, &theirs);
             }
         });
         Ok(Self { desk, thread: Some(thread) })
@@ -53,6 +53,11 @@ impl RenderWorker {
         if lines > 0 {
             self.desk.want(|state| state.lines = (state.lines + lines).min(most));
         }
+    }
+
+    /// Draws no more of the lines that were granted.
+    pub fn hold(&self) {
+        self.desk.want(|state| state.lines = 0);
     }
 
     /// Looks at a pixel.

@@ -178,7 +178,7 @@ fn scenes_are_written_with_their_options() {
         "maps/scene.toml",
         scene_over("map.png", "sky") + "\n[[screen]]\nname = \"left\"\nsize = [30, 20]\nfov = 20\n",
     );
-    let formats = ["--format", "ground=16.8:stochastic", "--set", "seed=7"];
+    let formats = ["--format", "height=12.8:stochastic", "--set", "seed=7"];
     const OWN_MAP: [&str; 6] = [
         "--set",
         "surface.map=maps/map.png",
@@ -204,5 +204,63 @@ fn scenes_are_written_with_their_options() {
         assert_eq!(folder.read("a.png"), folder.read("b.png"), "{scene} {options:?}");
         folder.prints(&["render", scene, "--sample", "0", "-o", "plain.png", "--size", "64x48"]);
         assert_ne!(folder.read("a.png"), folder.read("plain.png"), "{scene} {options:?}");
+    }
+}
+
+#[test]
+fn heights_are_exaggerated_on_demand() {
+    let folder = Folder::new();
+    // The scene has 0.025 units per metre, of 80 m each: twice life size.
+    let as_it_is = draw(&folder, "flight", "plain", &[]);
+    assert!(as_it_is == draw(&folder, "flight", "twice", &["--exaggeration", "2"]));
+    let flat = draw(&folder, "flight", "flat", &["--exaggeration", "1"]);
+    assert!(flat == draw(&folder, "flight", "set", &["--set", "surface.height.scale=0.0125"]));
+    assert!(flat != as_it_is);
+
+    // A height file, whose camera is chosen for the heights as they are drawn.
+    super::write_map(&folder.path("map.png"), 40, 30, |i, j| (i * j * 3) as u16);
+    let args = ["render", "map.png", "--size", "64x48", "--scene-out", "out.toml"];
+    folder.prints(&[&args[..], &["--exaggeration", "4"]].concat());
+    let scene = String::from_utf8(folder.read("out.toml")).expect("text");
+    // Cells of 30 m are assumed: 4/30.
+    assert!(scene.contains("scale = 0.133333"), "{scene}");
+
+    for (arguments, names) in [
+        (&["plane", "--exaggeration", "2"][..], "no terrain"),
+        (&["flight", "--exaggeration", "0"], "1 is life size"),
+        (&["flight", "--exaggeration", "x"], "1 is life size"),
+        (&["flight", "--exaggeration", "2", "--set", "surface.height.scale=1"], "one of the two"),
+    ] {
+        let output = folder.run(&[&["render"][..], arguments].concat());
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
+        assert!(stderr.contains(names), "{arguments:?}: {stderr}");
+    }
+}
+
+#[test]
+fn pictures_of_errors_are_parted_and_ranged() {
+    let folder = Folder::new();
+    let error = |name: &str, more: &[&str]| {
+        draw(&folder, "flight", name, &[&["--picture", "error"], more].concat())
+    };
+    let total = error("total", &[]);
+    assert!(total == error("named", &["--error", "total"]));
+    let algorithm = error("algorithm", &["--error", "algorithm"]);
+    let quantisation = error("quantisation", &["--error", "quantisation"]);
+    assert!(total != algorithm && algorithm != quantisation && total != quantisation);
+    let arguments = ["render", "flight", "--picture", "error", "--range", "0.5", "--size", "64x48"];
+    let output = folder.run(&[&arguments[..], &["-o", "ranged.png"]].concat());
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(stderr.contains("to 0.5"), "{stderr}");
+    for (more, names) in [
+        (&["--error", "total"][..], "--picture error"),
+        (&["--range", "1"], "--picture error"),
+        (&["--picture", "error", "--range", "0"], "above 0"),
+    ] {
+        let output = folder.run(&[&["render", "flight"][..], more].concat());
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{more:?}: {stderr}");
+        assert!(stderr.contains(names), "{more:?}: {stderr}");
     }
 }

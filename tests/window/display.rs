@@ -17,6 +17,8 @@ impl Display {
     fn new() -> Option<Self> {
         let server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"])
+            // It would start anew between two programs, and refuse one that comes at that moment.
+            .arg("-noreset")
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn();
@@ -157,6 +159,36 @@ fn a_height_file_is_looked_over() {
         assert_eq!(output.status.code(), Some(2), "{options:?}: {stderr}");
         assert!(stderr.contains(names) && stderr.lines().count() == 1, "{options:?}: {stderr}");
         assert!(!path("no.toml").exists() && !path("no.png").exists());
+    }
+}
+
+#[test]
+fn a_window_is_no_larger_than_the_screen() {
+    // It has 800x600 pixels.
+    let Some(display) = Display::new() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    for (options, size, note) in [
+        (&["overview"][..], (600, 600), false),
+        (&["overview", "--scale", "3"], (600, 600), false),
+        (&["plane", "--set", "screen.size=[1600, 400]"], (800, 200), false),
+        (&["plane", "--size", "640x480"], (640, 480), false),
+        (&["plane", "--size", "900x500"], (900, 500), true),
+    ] {
+        let script = ["--frames", "1", "--screenshot", "window.png"];
+        let seen = terraline(
+            folder.path(),
+            Some(&display.name),
+            &[&["view"][..], options, &script].concat(),
+        );
+        let stderr = String::from_utf8_lossy(&seen.stderr);
+        if stderr.contains("failed to load") {
+            eprintln!("skipped: {stderr}");
+            return;
+        }
+        succeeds(&seen);
+        let window = png::read(&folder.path().join("window.png")).expect("a picture");
+        assert_eq!((window.columns, window.lines), size, "{options:?}");
+        assert_eq!(stderr.contains("800x600"), note, "{options:?}: {stderr}");
     }
 }
 

@@ -42,3 +42,18 @@ fn the_help() {
 fn a_standing_scan_in_a_small_window() {
     is_golden("scan.png", "plane", (240, 180), "- - - wait wait wait space");
 }
+
+#[test]
+fn help_in_a_small_window_goes_on_on_further_pages() {
+    is_golden("help-1.png", "plane", (420, 320), "h");
+    is_golden("help-2.png", "plane", (420, 320), "h pagedown");
+    let [first, second, back] = ["h", "h pagedown", "h pagedown pageup"]
+        .map(|keys| run(scene("plane", &[]), (420, 320), keys).0);
+    assert!(first != second && first == back);
+}
+
+#[test]
+fn legends_and_status_fit_a_small_window() {
+    is_golden("small.png", "overview", (420, 320), "2 shift+4 move=100,200");
+    is_golden("small-2.png", "overview", (420, 320), "2 shift+4 move=100,200 pagedown");
+}

@@ -1,6 +1,8 @@
 //! The scan that falls line by line.
 
 use terraline::engine::Engine;
+use terraline::sink::picture::Picture;
+use terraline::view::action::{Action, Side};
 use terraline::view::layout::Layout;
 use terraline::view::order::Order;
 use terraline::view::pane::Pane;
@@ -8,7 +10,7 @@ use terraline::view::session::Session;
 use terraline::view::snapshot::LineState;
 use terraline::view::worker::RenderWorker;
 
-use super::{frame, run, scene};
+use super::{drawn, frame, run, scene};
 
 #[test]
 fn lines_fall_as_they_are_granted() {
@@ -90,4 +92,139 @@ fn keys_pause_and_step() {
     assert!(line.abs_diff(lines % 60) <= 1, "{line}");
     let (canvas, _) = run(scene, (80, 60), "tab - - + + wait");
     assert_eq!(canvas.bytes(), whole, "back at the full rate all is true");
+}
+
+/// A session with its worker, in step with each other.
+struct Window {
+    session: Session,
+    worker: RenderWorker,
+}
+
+impl Window {
+    fn open(name: &str) -> Self {
+        let layout = Layout::new(80, 60, 1);
+        let scene = scene(name, &[]);
+        let mut session = Session::new(scene, false, Some(String::new()), Engine::Fast, layout);
+        let order = session.order().expect("the first order");
+        let worker = RenderWorker::start(order).expect("a scene that can be drawn");
+        worker.finish();
+        Self { session, worker }
+    }
+
+    /// Acts, and waits until the worker has done what follows.
+    fn act(&mut self, action: Action) -> &mut Self {
+        self.session.act(action);
+        if let Some(order) = self.session.order() {
+            self.worker.order(order);
+        }
+        self.worker.finish();
+        self
+    }
+
+    fn grant(&mut self, lines: u32) -> &mut Self {
+        self.worker.grant(lines, u32::MAX);
+        self.worker.finish();
+        self
+    }
+
+    /// The lines that have fallen, by the images and by the scan.
+    fn fallen(&self) -> (Vec<usize>, Option<u32>) {
+        let snapshot = self.worker.snapshot();
+        (snapshot.images.iter().map(|image| image.drawn()).collect(), snapshot.scan)
+    }
+
+    fn pixels(&self, side: usize) -> Vec<[u8; 3]> {
+        self.worker.snapshot().images[side].pixels.clone()
+    }
+}
+
+#[test]
+fn a_pause_at_the_full_rate_keeps_the_frame() {
+    let mut window = Window::open("overview");
+    let whole = window.pixels(0);
+    window.act(Action::TogglePause);
+    assert_eq!(window.fallen(), (vec![60], Some(60)));
+    assert_eq!(window.pixels(0), whole);
+    // The next line is the first of the next frame.
+    window.grant(1);
+    assert_eq!(window.fallen(), (vec![1], Some(1)));
+    // And at the full rate again all is there.
+    window.act(Action::TogglePause);
+    assert_eq!((window.fallen(), window.pixels(0)), ((vec![60], None), whole));
+}
+
+#[test]
+fn a_scan_that_stands_stays_where_it_was() {
+    let size = (80, 60);
+    let scene = scene("overview", &[]);
+    let frames = drawn(&scene, size, Engine::Fast);
+    let mut window = Window::open("overview");
+    window.act(Action::Slower).act(Action::TogglePause).grant(23);
+    assert_eq!(window.fallen(), (vec![23], Some(23)));
+    for (action, sides) in [
+        (Action::Picture(Side::Left, Picture::Height), 1),
+        (Action::Picture(Side::Left, Picture::Cycles), 1),
+        (Action::Picture(Side::Left, Picture::Error), 1),
+        (Action::ToggleSplit, 2),
+        (Action::NextEngine(Side::Right), 2),
+        (Action::MoveSplit(0.3), 2),
+        (Action::ToggleHelp, 2),
+        (Action::TogglePanels, 2),
+        (Action::CopyScene, 2),
+        (Action::Point(Some((20, 50))), 2),
+        (Action::Faster, 2),
+        (Action::Slower, 2),
+        (Action::ToggleSplit, 1),
+        (Action::TogglePause, 1),
+        (Action::TogglePause, 1),
+        (Action::Picture(Side::Left, Picture::Height), 1),
+    ] {
+        window.act(action);
+        window.session.resize(Layout::new(80, 60, 1));
+        assert_eq!(window.fallen(), (vec![23; sides], Some(23)), "{action:?}");
+    }
+    let heights = Picture::Height.of(&drawn(&scene, (80, 60), Engine::Fast)).unwrap().pixels;
+    // The ramp follows the lines that are drawn: all of them were, without buffers or with.
+    window.grant(37);
+    assert_eq!((window.fallen(), window.pixels(0)), ((vec![60], Some(60)), heights));
+    window.act(Action::Picture(Side::Left, Picture::Color));
+    assert_eq!((window.fallen().1, window.pixels(0)), (Some(60), frames.frame.color));
+}
+
+#[test]
+fn a_pause_takes_back_lines_that_wait() {
+    let mut window = Window::open("flight");
+    window.act(Action::Slower).act(Action::Picture(Side::Left, Picture::Error));
+    // So many that without the hold it would not be done today.
+    window.worker.grant(u32::MAX, u32::MAX);
+    window.worker.hold();
+    window.worker.finish();
+    let stands = window.fallen().1;
+    window.grant(1);
+    assert_eq!(window.fallen().1, stands.map(|line| line % 60 + 1));
+}
+
+#[test]
+fn finished_frames_are_shown_again_and_not_drawn_again() {
+    let mut window = Window::open("overview");
+    let show = |window: &mut Window, picture| {
+        window.act(Action::Picture(Side::Left, picture));
+        let snapshot = window.worker.snapshot();
+        assert_eq!((snapshot.images[0].drawn(), snapshot.scan), (60, None), "{picture:?}");
+        // Drawn again, it would have taken another time, to the nanosecond.
+        (snapshot.facts.timings.clone(), window.pixels(0))
+    };
+    let first = Picture::ALL.map(|picture| show(&mut window, picture));
+    let again = Picture::ALL.map(|picture| show(&mut window, picture));
+    assert_eq!(first[1..], again[1..]);
+    // Height, normal and steps come from one frame, and from then on the colour as well.
+    let times = again.each_ref().map(|(timings, _)| timings);
+    assert!(times[0] == times[1] && times[1] == times[2] && times[2] == times[3]);
+    assert_ne!(times[4], times[5]);
+    assert_eq!(first[0].1, again[0].1);
+    // Another view is drawn anew.
+    window.act(Action::Turn(1.0, 0.0, 0.0)).act(Action::Turn(-1.0, 0.0, 0.0));
+    let anew = show(&mut window, Picture::Height);
+    assert_ne!(anew.0, again[1].0);
+    assert_eq!(anew.1, again[1].1);
 }

@@ -3,7 +3,7 @@
 use crate::scene::height_map::HeightMap;
 
 /// Lowland, meadow, steppe, rock, scree, snow.
-const LAND: [[u8; 3]; 6] = [
+pub const LAND: [[u8; 3]; 6] = [
     [66, 110, 66],
     [142, 166, 96],
     [214, 198, 138],

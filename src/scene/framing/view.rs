@@ -1,7 +1,8 @@
 //! What the scene shows and from where: scale, exaggeration, camera.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
+use super::overlook::{Sight, outline};
 use super::ramp;
 use super::reason::Reason;
 use crate::scene::camera::{Angles, Attitude, Camera};
@@ -38,11 +39,8 @@ const STEPS: [f64; 7] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0];
 /// Field of view across the width, in degrees.
 const FIELD: f64 = 45.0;
 
-/// Share of the screen that the map may fill.
-const FILLED: f64 = 0.94;
-
 /// Degrees down. With [`FIELD`], no ray of a screen that is wider than high looks up.
-const PITCH: f64 = -35.0;
+pub const PITCH: f64 = -35.0;
 
 /// A sample beyond this is no height.
 const LARGEST: f64 = 1e9;
@@ -77,6 +75,7 @@ impl View {
         map: &HeightMap,
         georeference: &Georeference,
         size: (u32, u32),
+        asked: Option<f64>,
     ) -> Result<Self, (String, String)> {
         let (columns, rows) = (map.columns(), map.rows());
         let (low, high) = map.range();
@@ -116,7 +115,10 @@ impl View {
         let extent = DVec2::new(across * cell.x, down * cell.y);
         let longer = extent.max_element();
         let range = (f64::from(high) - f64::from(low)) * height_unit_m / unit_m;
-        let exaggeration = exaggeration(range / longer, known.is_some(), &mut reasons);
+        let exaggeration = match asked {
+            Some(asked) => asked,
+            None => exaggeration(range / longer, known.is_some(), &mut reasons),
+        };
         let scale = neat(height_unit_m * exaggeration / unit_m).max(1e-9);
         let top = (f64::from(high) - f64::from(low)) * scale;
         let base_depth = neat((top / 4.0).max(longer / 64.0));
@@ -125,7 +127,11 @@ impl View {
         let heading = if extent.y > 2.0 * extent.x { 25.0 } else { 70.0 };
         let height = |sample: f32| (f64::from(sample) - f64::from(low)) * scale;
         let outline = outline(map, cell, -base_depth, height);
-        let position = overlooking(&outline, top, heading, size);
+        let sight = sight(heading, size);
+        let position = sight
+            .overlooking(&outline, top)
+            .unwrap_or_else(|| unreachable!("this camera looks down"));
+        let position = DVec3::from_array(position.to_array().map(neat));
         let (ramp, sea) = ramp::choose(map, height_unit_m);
         reasons.extend(sea.map(|text| Reason::new(&["color.ramp"], text)));
         reasons.extend(holes(map).map(|text| Reason::new(&["surface.nodata"], text)));
@@ -223,6 +229,20 @@ fn exaggeration(share: f64, known: bool, reasons: &mut Vec<Reason>) -> f64 {
     chosen
 }
 
+/// The camera of a heading in degrees, level across and [`PITCH`] down, with a screen of this size.
+fn sight(heading: f64, size: (u32, u32)) -> Sight {
+    let (sin, cos) = (libm::sin(heading.to_radians()), libm::cos(heading.to_radians()));
+    let (dip, flat) = (libm::sin(PITCH.to_radians()), libm::cos(PITCH.to_radians()));
+    let axes = DMat3::from_cols(
+        DVec3::new(cos * flat, dip, -sin * flat),
+        DVec3::new(-cos * dip, flat, sin * dip),
+        DVec3::new(sin, 0.0, cos),
+    );
+    let across = libm::tan(FIELD.to_radians() / 2.0);
+    let up = across * f64::from(size.1) / f64::from(size.0);
+    Sight { axes, left: across, right: across, up, down: up }
+}
+
 /// What becomes of nodes without data.
 fn holes(map: &HeightMap) -> Option<String> {
     let voids = map.voids();
@@ -237,59 +257,6 @@ fn holes(map: &HeightMap) -> Option<String> {
     })
 }
 
-/// Corners of boxes that enclose all ground, a box for each row of nodes.
-fn outline(map: &HeightMap, cell: DVec2, bottom: f64, height: impl Fn(f32) -> f64) -> Vec<DVec3> {
-    let mut corners = Vec::new();
-    for (j, row) in map.samples().chunks_exact(map.columns()).enumerate() {
-        let data = |sample: &f32| !sample.is_nan();
-        let (Some(west), Some(east)) = (row.iter().position(data), row.iter().rposition(data))
-        else {
-            continue;
-        };
-        let top = height(row.iter().copied().fold(f32::NEG_INFINITY, f32::max));
-        for i in [west, east] {
-            for y in [bottom, top] {
-                corners.push(DVec3::new(i as f64 * cell.x, y, j as f64 * cell.y));
-            }
-        }
-    }
-    corners
-}
-
-/// Where a camera sees all these points as large as the screen allows, from above `top`.
-///
-/// With the camera's axes u, v and w, a point p is seen if |p·w - a| ≤ k (p·u + D) for a camera
-/// at a w + b v - D u, and likewise for v. Of A = max(p·w - k p·u) and B = max(-p·w - k p·u), the
-/// nearest camera has a = (A - B)/2 and D = (A + B)/2k; the larger D of the two axes serves both.
-fn overlooking(points: &[DVec3], top: f64, heading: f64, size: (u32, u32)) -> DVec3 {
-    let (sin, cos) = (libm::sin(heading.to_radians()), libm::cos(heading.to_radians()));
-    let (dip, flat) = (libm::sin(PITCH.to_radians()), libm::cos(PITCH.to_radians()));
-    let u = DVec3::new(cos * flat, dip, -sin * flat);
-    let v = DVec3::new(-cos * dip, flat, sin * dip);
-    let w = DVec3::new(sin, 0.0, cos);
-    let across = libm::tan(FIELD.to_radians() / 2.0) * FILLED;
-    let up = across * f64::from(size.1) / f64::from(size.0);
-    let fit = |axis: DVec3, k: f64| {
-        let mut most = [f64::NEG_INFINITY; 2];
-        for p in points {
-            most[0] = most[0].max(p.dot(axis) - k * p.dot(u));
-            most[1] = most[1].max(-p.dot(axis) - k * p.dot(u));
-        }
-        ((most[0] - most[1]) / 2.0, (most[0] + most[1]) / (2.0 * k))
-    };
-    let ((a, d_w), (b, d_v)) = (fit(w, across), fit(v, up));
-    let mut distance = d_w.max(d_v);
-    let place = |distance: f64| w * a + v * b - u * distance;
-    // On a very high screen all may fit from below the top: step back, which is up.
-    let bottom = points.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
-    let least = top + (top - bottom) / 8.0;
-    if place(distance).y < least {
-        distance += (least - place(distance).y) / -u.y;
-    }
-    let position = place(distance);
-    DVec3::new(neat(position.x), neat(position.y), neat(position.z))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -297,7 +264,7 @@ mod tests {
     fn view(columns: usize, rows: usize, range: f32, size: (u32, u32)) -> View {
         let samples = (0..columns * rows).map(|k| if k == 3 { range } else { 0.0 }).collect();
         let map = HeightMap::new(columns, rows, samples);
-        View::new(&map, &Georeference::unknown(), size).unwrap()
+        View::new(&map, &Georeference::unknown(), size, None).unwrap()
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Legends: what each side shows, and what its colours stand for.
 
 use embedded_graphics::mono_font::MonoFont;
+use embedded_graphics::mono_font::iso_8859_1::FONT_6X10;
 use embedded_graphics::pixelcolor::Rgb888;
 
 use crate::scene::Surface;
@@ -14,8 +15,8 @@ use crate::view::snapshot::{Image, LineState, Snapshot};
 /// Distance of legends from the corners of the window.
 const CORNER: i32 = 8;
 
-/// Characters across a legend.
-const ACROSS: i32 = 30;
+/// Characters across a legend, and at least in a narrow side.
+const ACROSS: (i32, i32) = (30, 12);
 
 /// A colour and what it means.
 type Swatch = ([u8; 3], &'static str);
@@ -49,15 +50,20 @@ fn box_of(
     (from, to): (i32, i32),
     bottom: i32,
 ) {
-    let font = canvas.font();
-    let inner = ACROSS * width(font, "m");
-    let wide = inner + 2 * MARGIN;
-    let row = height(font);
-    let rows = contents(session, image, inner / width(font, "m"));
-    let tall = rows.len() as i32 * row + 2 * MARGIN;
-    if to - from < wide + 2 * CORNER || bottom < tall + 2 * CORNER {
+    // The font of the window, or else the smallest: a legend that fits with neither is left out, for
+    // a part of one would mislead.
+    let Some((font, inner, rows)) = [canvas.font(), &FONT_6X10].into_iter().find_map(|font| {
+        let letter = width(font, "m");
+        let across = ((to - from - 2 * (CORNER + MARGIN)) / letter).min(ACROSS.0);
+        let rows = narrowed(contents(session, image), font, across);
+        let tall = rows.len() as i32 * height(font) + 2 * MARGIN;
+        let fits = across >= ACROSS.1 && bottom >= tall + 2 * CORNER;
+        fits.then_some((font, across * letter, rows))
+    }) else {
         return;
-    }
+    };
+    let (wide, row) = (inner + 2 * MARGIN, height(font));
+    let tall = rows.len() as i32 * row + 2 * MARGIN;
     let x = if index == 0 { from + CORNER } else { to - CORNER - wide };
     canvas.shade(x, CORNER, wide as u32, tall as u32);
     for (at, content) in rows.iter().enumerate() {
@@ -84,7 +90,48 @@ enum Row {
     Swatches(Vec<Swatch>),
 }
 
-fn contents(session: &Session, image: &Image, most: i32) -> Vec<Row> {
+/// Rows of at most so many characters: those that are longer go on in the next.
+fn narrowed(rows: Vec<Row>, font: &MonoFont<'_>, across: i32) -> Vec<Row> {
+    let most = across.max(1) as usize;
+    let fits = |texts: [&str; 2]| texts.iter().map(|text| text.chars().count()).sum::<usize>() < most;
+    let mut narrow = Vec::new();
+    for row in rows {
+        match row {
+            Row::Text(text) => narrow.extend(wrapped(&text, most).into_iter().map(Row::Text)),
+            Row::Note(text) => narrow.extend(wrapped(&text, most).into_iter().map(Row::Note)),
+            Row::Ends(low, high) if !fits([&low, &high]) => {
+                let ends = format!("{low} to {high}");
+                narrow.extend(wrapped(&ends, most).into_iter().map(Row::Text));
+            }
+            Row::Swatches(swatches) => {
+                let mut used = 0;
+                for swatch in swatches {
+                    let wide = swatch_width(font, &swatch);
+                    let space = across * width(font, "m");
+                    match narrow.last_mut() {
+                        Some(Row::Swatches(row)) if used > 0 && used + wide <= space => {
+                            row.push(swatch);
+                        }
+                        _ => {
+                            used = 0;
+                            narrow.push(Row::Swatches(vec![swatch]));
+                        }
+                    }
+                    used += wide + 2 * MARGIN;
+                }
+            }
+            row => narrow.push(row),
+        }
+    }
+    narrow
+}
+
+/// Pixels of a swatch with its name.
+fn swatch_width(font: &MonoFont<'_>, (_, name): &Swatch) -> i32 {
+    height(font) + width(font, name)
+}
+
+fn contents(session: &Session, image: &Image) -> Vec<Row> {
     let title = image.pane.title();
     // While lines fall, all that is not true is dimmed.
     let preview = session.pace().is_full()
@@ -93,7 +140,7 @@ fn contents(session: &Session, image: &Image, most: i32) -> Vec<Row> {
     let title = if preview { format!("{title}: preview") } else { title };
     let mut rows = vec![Row::Text(title)];
     if let Some(note) = image.note {
-        rows.extend(wrapped(note, most as usize).into_iter().map(Row::Note));
+        rows.push(Row::Note(note.into()));
         return rows;
     }
     match image.pane.picture {
@@ -110,6 +157,9 @@ fn contents(session: &Session, image: &Image, most: i32) -> Vec<Row> {
             if let Some(Legend { low, high, unit, logarithmic }) = image.legend {
                 rows.push(Row::Bar(Box::new(move |t| other.ramp(t).unwrap_or(NOTHING))));
                 rows.push(Row::Ends(figure(low), figure(high)));
+                if other == Picture::Height {
+                    rows.push(in_metres(session, (low, high)));
+                }
                 let scale = if logarithmic { ", logarithmic" } else { "" };
                 rows.push(Row::Text(format!("{unit}{scale}")));
             }
@@ -136,15 +186,25 @@ fn color(session: &Session, rows: &mut Vec<Row>) {
                 let (low, high) = terrain.range();
                 rows.push(Row::Bar(Box::new(move |t| picture::ramp(&ramp, t))));
                 rows.push(Row::Ends(figure(low), figure(high)));
+                rows.push(in_metres(session, (low, high)));
                 rows.push(Row::Text("height, scene units; lit".into()));
             }
             Surface::Plane(plane) => {
                 let squares = scene.color.checker.map(|color| (color, "square"));
                 rows.push(Row::Swatches(squares.to_vec()));
-                rows.push(Row::Text(format!("of {} scene units", figure(plane.checker))));
+                let side = plane.checker;
+                let metres = session.measure().distance_m(side);
+                let (units, metres) = (figure(side), figure(metres));
+                rows.push(Row::Text(format!("of {units} scene units, {metres} m")));
             }
         }
     }
+}
+
+/// Heights in scene units, as metres.
+fn in_metres(session: &Session, (low, high): (f64, f64)) -> Row {
+    let [low, high] = [low, high].map(|y| format!("{} m", figure(session.measure().height_m(y))));
+    Row::Ends(low, high)
 }
 
 fn bar(canvas: &mut Canvas, x: i32, y: i32, wide: i32, tall: i32, ramp: &dyn Fn(f64) -> [u8; 3]) {
@@ -166,9 +226,8 @@ fn paint_swatches(
         // A frame, so that dark colours are seen on the dark ground.
         canvas.fill(x, y + 1, side as u32 + 2, side as u32 + 2, TEXT);
         canvas.fill(x + 1, y + 2, side as u32, side as u32, Rgb888::new(*r, *g, *b));
-        x += side + 2 + 3;
-        write(canvas, font, x, y, name, TEXT);
-        x += width(font, name) + 2 * MARGIN;
+        write(canvas, font, x + side + 2 + 3, y, name, TEXT);
+        x += swatch_width(font, &([*r, *g, *b], name)) + 2 * MARGIN;
     }
 }
 

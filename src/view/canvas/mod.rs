@@ -80,7 +80,7 @@ impl Canvas {
             legend::draw(self, session, snapshot, split, bottom);
         }
         if session.shows_help() {
-            help::draw(self);
+            help::draw(self, session.help_page());
         }
     }
 

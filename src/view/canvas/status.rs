@@ -1,13 +1,15 @@
 //! The status line: craft, machine, time, and the pixel under the cursor.
 
+use embedded_graphics::pixelcolor::Rgb888;
+
 use crate::frame::Hit;
-use crate::scene::{Deformation, Extent, Scene};
+use crate::scene::{Deformation, Extent};
 use crate::study::error::Sheet;
 use crate::study::probe::Probe;
 
 use super::legend::figure;
-use super::panel::{MARGIN, height, rows, write};
-use super::{ALERT, Canvas, TEXT};
+use super::panel::{MARGIN, height, rows, width, write};
+use super::{ALERT, Canvas, MARK, TEXT};
 use crate::view::camera;
 use crate::view::pane::Source;
 use crate::view::session::Session;
@@ -23,41 +25,58 @@ pub(super) fn draw(
     let font = canvas.font();
     let (wide, tall) = (canvas.size().0 as i32, canvas.size().1 as i32);
     let space = wide - 2 * MARGIN;
-    let mut lines: Vec<(String, _)> = Vec::new();
-    let mut add = |items: &[String], color| {
-        lines.extend(rows(font, items, "   ", space).into_iter().map(|row| (row, color)));
-    };
+    let mut parts: Vec<(Vec<String>, Rgb888)> = Vec::new();
     if let Some(trouble) = &snapshot.facts.trouble {
-        add(&[format!("cannot draw: {trouble}")], ALERT);
+        parts.push((vec![format!("cannot draw: {trouble}")], ALERT));
     }
     if let Some(notice) = session.notice() {
-        add(&[notice.to_owned()], ALERT);
+        parts.push((vec![notice.to_owned()], ALERT));
     }
     match &snapshot.facts.probe {
         Some(found) if session.pointed() == Some((found.column, found.line)) => {
-            add(&probe(found), TEXT);
+            parts.push((probe(session, found), TEXT));
         }
         _ => {}
     }
-    add(&craft(session.scene()), TEXT);
-    add(&work(session, snapshot, timed), TEXT);
+    parts.push((craft(session), TEXT));
+    parts.push((work(session, snapshot, timed), TEXT));
+    let lines = |space: i32| -> Vec<(String, Rgb888)> {
+        let of = |(items, color): &(Vec<String>, Rgb888)| {
+            let color = *color;
+            rows(font, items, "   ", space).into_iter().map(move |row| (row, color))
+        };
+        parts.iter().flat_map(of).collect()
+    };
 
     let row = height(font);
-    // In a small window the picture keeps two thirds; what is most urgent stands first.
+    // In a small window the picture keeps two thirds; what is most urgent stands first, the rest on
+    // further pages.
     let most = ((tall / 3 - 2 * MARGIN) / row).max(0) as usize;
-    lines.truncate(most);
-    if lines.is_empty() {
+    let mut all = lines(space);
+    if most == 0 || all.is_empty() {
         return tall;
     }
+    let mut mark = String::new();
+    if all.len() > most {
+        all = lines(space - width(font, "PageDown 9/9 "));
+        let pages = all.len().div_ceil(most);
+        let page = session.status_page().rem_euclid(pages as i32) as usize;
+        mark = format!("PageDown {}/{pages}", page + 1);
+        all = all.split_off(page * most);
+        all.truncate(most);
+    }
+    let lines = all;
     let top = tall - lines.len() as i32 * row - 2 * MARGIN;
     canvas.shade(0, top, wide as u32, (tall - top) as u32);
     for (at, (text, color)) in lines.iter().enumerate() {
         write(canvas, font, MARGIN, top + MARGIN + at as i32 * row, text, *color);
     }
+    write(canvas, font, wide - MARGIN - width(font, &mark), top + MARGIN, &mark, MARK);
     top
 }
 
-fn craft(scene: &Scene) -> Vec<String> {
+fn craft(session: &Session) -> Vec<String> {
+    let (scene, measure) = (session.scene(), session.measure());
     // What rounds to nothing has no sign.
     let tenth = |degrees: f64| (degrees * 10.0).round() / 10.0 + 0.0;
     let [heading, pitch, roll] = camera::degrees(&scene.camera).map(tenth);
@@ -65,10 +84,15 @@ fn craft(scene: &Scene) -> Vec<String> {
     let place = scene.camera.position;
     let mut items = vec![
         format!("at {:.2} {:.2} {:.2}", place.x, place.y, place.z),
+        format!("eye at {} m", figure(measure.height_m(session.eye().y))),
         format!("heading {heading:.1}° (compass {course:.1}° {point})"),
         format!("pitch {pitch:+.1}°"),
         format!("roll {roll:+.1}°"),
     ];
+    if let Some(above) = session.eye_above_ground() {
+        let metres = figure(measure.rise_m(above));
+        items.insert(2, format!("{} above ground, {metres} m", figure(above)));
+    }
     if let Extent::FieldOfView(fov) = scene.screens[0].extent {
         items.push(format!("field {:.1}°", fov.to_degrees()));
     }
@@ -89,6 +113,9 @@ fn work(session: &Session, snapshot: &Snapshot, timed: bool) -> Vec<String> {
             }
         });
     }
+    if let Some(times) = session.exaggeration() {
+        items.push(format!("heights x {}", figure(times)));
+    }
     let layout = session.layout();
     let scale = if layout.scale > 1 { format!(" x {}", layout.scale) } else { String::new() };
     let raster = format!("{}x{}{scale}", layout.columns, layout.lines);
@@ -105,6 +132,7 @@ fn work(session: &Session, snapshot: &Snapshot, timed: bool) -> Vec<String> {
 fn pace(session: &Session, snapshot: &Snapshot) -> String {
     let pace = session.pace();
     let line = match snapshot.scan.filter(|_| snapshot.by_lines) {
+        Some(line) if line as usize >= session.layout().lines => ", all lines".into(),
         Some(line) => format!(", line {line}"),
         None => String::new(),
     };
@@ -119,7 +147,7 @@ fn pace(session: &Session, snapshot: &Snapshot) -> String {
 fn time(Timing { source, ms }: &Timing) -> String {
     let name = match source {
         Source::Frame(engine) => engine.name(),
-        Source::Error(_) => "errors",
+        Source::Error => "errors",
     };
     if *ms < 10.0 { format!("{name} {ms:.1} ms") } else { format!("{name} {ms:.0} ms") }
 }
@@ -130,12 +158,18 @@ fn frame_rate(FrameRate { fps, clock_mhz, counted, lines }: &FrameRate) -> Strin
     format!("machine {} frames/s at {} MHz{sampled}", figure(*fps), figure(*clock_mhz))
 }
 
-fn probe(probe: &Probe) -> Vec<String> {
+fn probe(session: &Session, probe: &Probe) -> Vec<String> {
+    let measure = session.measure();
     let mut items = vec![format!("pixel {},{}", probe.column, probe.line)];
     match probe.point {
         Some(point) => {
             let what = if probe.hit == Hit::Side { "side, rim" } else { "ground" };
             items.push(format!("{what} {:.3} {:.3} {:.3}", point.x, point.y, point.z));
+            items.push(format!("{} m high", figure(measure.height_m(point.y))));
+            items.extend(measure.place(point.x, point.z));
+            let away = (point - session.eye()).with_y(0.0).length();
+            let metres = figure(measure.distance_m(away));
+            items.push(format!("{} away over ground, {metres} m", figure(away)));
             items.push(format!("step {}", probe.steps));
         }
         None => items.push(probe.hit.name().into()),

@@ -22,6 +22,8 @@ mod odd;
 mod packed;
 #[path = "height_files/real.rs"]
 mod real;
+#[path = "support/skipped.rs"]
+mod skipped;
 #[path = "height_files/stated.rs"]
 mod stated;
 #[path = "support/tiff_file.rs"]

@@ -14,6 +14,8 @@ mod looks;
 mod measure;
 #[path = "window/scan.rs"]
 mod scan;
+#[path = "support/skipped.rs"]
+mod skipped;
 mod support;
 
 use std::collections::VecDeque;

@@ -6,11 +6,13 @@ use glam::DVec2;
 use terraline::scene::height_map::source;
 use terraline::scene::{HeightFile, Interpretation};
 
+use super::skipped::skipped;
+
 /// A file of the collection, or `None` with a printed reason.
 fn file(name: &str) -> Option<HeightFile> {
     let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/dem").join(name);
     if !path.exists() {
-        println!("skipped: {} does not exist", path.display());
+        skipped(&format!("{} does not exist", path.display()));
         return None;
     }
     Some(source::read(&path, &Interpretation::default()).unwrap_or_else(|error| panic!("{error}")))

@@ -6,6 +6,8 @@ use std::process::{Child, Command, Output, Stdio};
 
 use terraline::sink::png;
 
+use super::skipped::skipped;
+
 /// A virtual display that lives as long as this.
 struct Display {
     server: Child,
@@ -23,7 +25,7 @@ impl Display {
             .stderr(Stdio::null())
             .spawn();
         let Ok(mut server) = server else {
-            eprintln!("skipped: there is no Xvfb here");
+            skipped("there is no Xvfb here");
             return None;
         };
         let mut number = String::new();
@@ -31,7 +33,7 @@ impl Display {
         let _ = BufReader::new(out).read_line(&mut number);
         let display = Self { server, name: format!(":{}", number.trim()) };
         if number.trim().is_empty() {
-            eprintln!("skipped: Xvfb does not start here");
+            skipped("Xvfb does not start here");
             return None;
         }
         Some(display)
@@ -73,7 +75,7 @@ fn a_window_shows_what_render_draws() {
     let view = [&["view", "flight"][..], &size, &script].concat();
     let seen = terraline(folder.path(), Some(&display.name), &view);
     if String::from_utf8_lossy(&seen.stderr).contains("failed to load") {
-        eprintln!("skipped: {}", String::from_utf8_lossy(&seen.stderr));
+        skipped(&String::from_utf8_lossy(&seen.stderr));
         return;
     }
     succeeds(&seen);
@@ -122,7 +124,7 @@ fn a_height_file_is_looked_over() {
     let view = [&["view"][..], &dem, &keys, &out].concat();
     let seen = terraline(folder.path(), Some(&display.name), &view);
     if String::from_utf8_lossy(&seen.stderr).contains("failed to load") {
-        eprintln!("skipped: {}", String::from_utf8_lossy(&seen.stderr));
+        skipped(&String::from_utf8_lossy(&seen.stderr));
         return;
     }
     succeeds(&seen);
@@ -182,7 +184,7 @@ fn a_window_is_no_larger_than_the_screen() {
         );
         let stderr = String::from_utf8_lossy(&seen.stderr);
         if stderr.contains("failed to load") {
-            eprintln!("skipped: {stderr}");
+            skipped(&stderr);
             return;
         }
         succeeds(&seen);

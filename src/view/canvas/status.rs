@@ -165,7 +165,11 @@ fn probe(session: &Session, probe: &Probe) -> Vec<String> {
         Some(point) => {
             let what = if probe.hit == Hit::Side { "side, rim" } else { "ground" };
             items.push(format!("{what} {:.3} {:.3} {:.3}", point.x, point.y, point.z));
-            items.push(format!("{} m high", figure(measure.height_m(point.y))));
+            // Less than the registers hold is no height.
+            let height = measure.height_m(point.y);
+            let least = 1e-5 * measure.rise_m(1.0).abs();
+            let height = if height.abs() < least { 0.0 } else { height };
+            items.push(format!("{} m high", figure(height)));
             items.extend(measure.place(point.x, point.z));
             let away = (point - session.eye()).with_y(0.0).length();
             let metres = figure(measure.distance_m(away));

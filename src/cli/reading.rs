@@ -55,12 +55,6 @@ impl Reading {
         encoding.into_iter().chain(nodata).collect()
     }
 
-    /// The first option that only height files take.
-    pub fn of_files_alone(&self) -> Option<&'static str> {
-        let unit = self.unit.map(|_| "--unit");
-        unit.or(self.height_unit.map(|_| "--height-unit"))
-    }
-
     /// The options again, as words of a command line.
     pub fn words(&self) -> Vec<String> {
         let unit = self.unit.map(|unit| match unit {
@@ -74,11 +68,16 @@ impl Reading {
     }
 
     /// Refuses options that only height files take, for a scene that is none.
-    pub fn refuse(&self, scene: &str) -> Result<(), Stop> {
-        self.of_files_alone().map_or(Ok(()), |option| {
+    pub fn refuse(&self, memory: Option<u64>, scene: &str) -> Result<(), Stop> {
+        let given = [
+            ("--unit", self.unit.is_some()),
+            ("--height-unit", self.height_unit.is_some()),
+            ("--memory", memory.is_some()),
+        ];
+        given.iter().find(|(_, given)| *given).map_or(Ok(()), |(option, _)| {
             Err(Stop::BadInput(format!(
                 "{option}: {} is no height file; a scene says what its map counts by surface.cell, \
-                 surface.height and unit_m",
+                 surface.height and unit_m, and thins it by surface.thin",
                 quote(scene)
             )))
         })

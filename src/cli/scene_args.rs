@@ -8,6 +8,7 @@ use super::Stop;
 use super::reading::Reading;
 use crate::engine::{Engine, FixedWorld, Machine, Memories};
 use crate::plan::Plan;
+use crate::scene::height_map::bytes;
 use crate::scene::framing::{self, Framing, Wishes};
 use crate::scene::screen::{MAX_PIXELS, MAX_SIDE};
 use crate::scene::{
@@ -25,6 +26,11 @@ pub struct SceneArgs {
 
     #[command(flatten)]
     reading: Reading,
+
+    /// Memory that the map may take, for example `600M` or `2.5G`; of a larger file every n-th node of
+    /// every n-th row is read. Without it, what the machine has free.
+    #[arg(long, value_name = "BYTES", value_parser = bytes)]
+    memory: Option<u64>,
 
     /// Override a value of the scene, for example `--set camera.pitch=-20`; repeatable.
     #[arg(long = "set", value_name = "PATH=VALUE")]
@@ -113,8 +119,9 @@ impl SceneArgs {
         let framing = if name.is_some_and(is_height_file) {
             let size = self.size.as_deref().map(parse_size).transpose()?;
             let Reading { unit, height_unit, .. } = self.reading;
+            let memory = self.memory;
             let exaggeration = self.exaggeration;
-            let wishes = Wishes { size, unit, height_unit_m: height_unit, exaggeration };
+            let wishes = Wishes { size, unit, height_unit_m: height_unit, exaggeration, memory };
             let paths: Vec<&Path> = self.scene.iter().map(Path::new).collect();
             Some(framing::read(&paths, &sets, &wishes)?)
         } else {
@@ -124,7 +131,7 @@ impl SceneArgs {
                      make one map"
                 )));
             }
-            self.reading.refuse(name.unwrap_or("overview"))?;
+            self.reading.refuse(self.memory, name.unwrap_or("overview"))?;
             None
         };
         let mut scene = match &framing {
@@ -191,6 +198,7 @@ impl SceneArgs {
             words.push("overview".to_owned());
         }
         words.extend(self.reading.words());
+        words.extend(self.memory.map(|bytes| format!("--memory {}M", bytes as f64 / 1e6)));
         let mut option = |name: &str, value: &str| words.push(format!("{name} {}", quote(value)));
         self.set.iter().for_each(|value| option("--set", value));
         self.format.iter().for_each(|value| option("--format", value));

@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::error::{SceneError, list, nearest};
 use super::fractal;
-use super::height_map::{HeightMap, MAX_NODES, MapError};
+use super::height_map::{HeightMap, MAX_NODES, MapError, refuse_too_large};
 use super::shown::shorten;
 
 /// A scene inside the program.
@@ -77,6 +77,9 @@ pub fn map(name: &str) -> Option<Result<Arc<HeightMap>, MapError>> {
         let map = jacksboro()?;
         let Some(nodes) = nodes else { return Ok(map) };
         let side = side(name, nodes)?;
+        let shown = format!("builtin:{}", shorten(name));
+        let smaller = |enough: u64| format!("give {base}@{}", side as u64 / enough);
+        refuse_too_large(&shown, side as u64, side as u64, smaller)?;
         Ok(Arc::new(fractal::resample(&map, side, DETAIL_SEED)))
     })
 }

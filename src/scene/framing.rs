@@ -15,7 +15,8 @@ use super::error::SceneError;
 use super::file::{Document, parse_with};
 use super::height_map::source::is_height_file;
 use super::height_map::{
-    CoordinateUnit, Encoding, Georeference, HeightFile, Interpretation, MAX_NODES, Thinning, mosaic,
+    CoordinateUnit, Encoding, Georeference, HeightFile, Interpretation, MAX_NODES, Thinning,
+    available, in_words, mosaic, nodes_in, taken,
 };
 use super::maps::{MapSource, ReadMap};
 use super::shown::shown_path;
@@ -26,6 +27,9 @@ use view::View;
 
 /// The raster of the screen where the user gives none.
 const SIZE: (u32, u32) = (1280, 800);
+
+/// Maps that take more bytes say so.
+const WORTH_SAYING: u64 = 500_000_000;
 
 /// A height file with a scene that looks over it.
 #[derive(Clone, Debug)]
@@ -58,6 +62,8 @@ pub struct Wishes {
     pub height_unit_m: Option<f64>,
     /// How many times life size heights are drawn.
     pub exaggeration: Option<f64>,
+    /// Bytes that the map may take; of a larger file every n-th node is read.
+    pub memory: Option<u64>,
 }
 
 /// Reads a height file, or several that make one map, and chooses a scene for it.
@@ -103,6 +109,13 @@ pub fn read(paths: &[&Path], sets: &[String], wishes: &Wishes) -> Result<Framing
         ));
     };
     let HeightFile { map, georeference, every, mut notes, .. } = file;
+    let bytes = taken(map.samples().len() as u64);
+    if bytes > WORTH_SAYING {
+        notes.push(format!(
+            "the map takes about {} of memory (--memory limits it)",
+            in_words(bytes)
+        ));
+    }
     let size = wishes.size.unwrap_or(SIZE);
     let view = View::new(&map, &georeference, size, wishes.exaggeration)
         .map_err(|(reason, remedy)| unreadable(path, reason, remedy))?;
@@ -195,13 +208,14 @@ fn interpretation(sets: &[String], wishes: &Wishes) -> Interpretation {
         })
     };
     let named = |name: &str| Encoding::NAMES.iter().find(|(other, _)| *other == name);
+    let nodes = wishes.memory.or_else(available).map_or(MAX_NODES, nodes_in);
     let thin = asked("thin").and_then(|value| value.parse().ok()).filter(|&every| every > 0);
     Interpretation {
         encoding: asked("encoding").and_then(named).map_or(Encoding::Stored, |found| found.1),
         nodata: asked("nodata_value").and_then(|value| value.parse().ok()),
         unit: wishes.unit,
         height_unit_m: wishes.height_unit_m,
-        thinning: thin.map_or(Thinning::Fit(MAX_NODES), Thinning::Every),
+        thinning: thin.map_or(Thinning::Fit(nodes), Thinning::Every),
     }
 }
 

@@ -12,6 +12,7 @@ mod hgt;
 mod interpretation;
 mod map;
 mod marks;
+mod memory;
 pub mod mosaic;
 mod png;
 pub mod projection;
@@ -24,3 +25,6 @@ pub use found::{Encoding, HeightFile, Storage};
 pub use georeference::{Coordinates, Georeference};
 pub use interpretation::{CoordinateUnit, Interpretation, Thinning, length};
 pub use map::HeightMap;
+#[cfg(feature = "cli")]
+pub(crate) use memory::bytes;
+pub(in crate::scene) use memory::{available, in_words, nodes_in, refuse_too_large, taken};

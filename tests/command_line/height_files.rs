@@ -319,3 +319,44 @@ fn notes_follow_the_options() {
     let [a, b] = ["a.toml", "b.toml"].map(|name| String::from_utf8(folder.read(name)).unwrap());
     assert!(a.contains("from above one of its sides") && !b.contains("from above one of"));
 }
+
+#[test]
+fn a_map_is_thinned_to_the_memory_that_it_may_take() {
+    let folder = Folder::new();
+    folder.write("dem.asc", grid(200, 150, 30.0, 500_000.0, hills));
+    let limited = ["render", "dem.asc", "--memory", "1M", "--size", "64x40", "--sample", "0"];
+    let text = folder.prints(&[&limited[..], &["-o", "a.png", "--scene-out", "s.toml"]].concat());
+    assert!(text.contains("of 200 x 150 nodes every 2nd of every 2nd row is read"), "{text}");
+    let scene = String::from_utf8(folder.read("s.toml")).unwrap();
+    assert!(scene.contains("thin = 2"), "{scene}");
+    folder.prints(&["render", "s.toml", "-o", "b.png", "--sample", "0"]);
+    assert_eq!(folder.read("a.png"), folder.read("b.png"));
+    for (arguments, word) in [
+        (&["dem.asc", "--memory", "much"][..], "2.5G"),
+        (&["flight", "--memory", "1G"], "surface.thin"),
+    ] {
+        let output = folder.run(&[&["render"], arguments].concat());
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{stderr}");
+        assert!(stderr.contains(word), "{stderr}");
+    }
+}
+
+/// Without the check, an allocation would fail in the middle of it.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_map_that_there_is_no_memory_for_is_refused() {
+    let folder = Folder::new();
+    let map = "surface.map=builtin:jacksboro@8192";
+    let command =
+        format!("ulimit -v 1000000; {} plan --set {map}", env!("CARGO_BIN_EXE_terraline"));
+    let output = std::process::Command::new("sh")
+        .args(["-c", &command])
+        .current_dir(folder.path("."))
+        .output();
+    let output = output.unwrap();
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert_eq!(stderr.lines().count(), 1, "{stderr}");
+    assert!(stderr.contains("takes about 5.0 GB") && stderr.contains("jacksboro@"), "{stderr}");
+}

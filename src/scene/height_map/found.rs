@@ -5,7 +5,7 @@ use super::georeference::Georeference;
 use super::interpretation::Interpretation;
 use super::map::HeightMap;
 use super::marks::{self, Conversion};
-use crate::scene::shown::{quote, shown};
+use crate::scene::shown::{ordinal, quote, shown};
 use crate::scene::words::Words;
 
 /// How the samples of a file stand for heights.
@@ -99,11 +99,7 @@ impl Found {
     /// What the file has, where every n-th node of every n-th row was kept.
     fn thin(&mut self, every: usize) {
         if every > 1 {
-            let nth = match every {
-                2 => "2nd".to_owned(),
-                3 => "3rd".to_owned(),
-                _ => format!("{every}th"),
-            };
+            let nth = ordinal(every as u64);
             self.notes.push(format!(
                 "of {} x {} nodes every {nth} of every {nth} row is read",
                 self.columns, self.rows

@@ -2,7 +2,9 @@
 
 use super::error::{MAX_NODES, MAX_SIDE, MapError, gdal};
 use super::found::Encoding;
+use super::memory;
 use super::unit;
+use crate::scene::shown::ordinal;
 
 /// What a user says of a height file. It counts more than what the file says itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,6 +54,16 @@ impl Interpretation {
             }
         };
         if fits(every, MAX_NODES) {
+            let thinner = |enough: u64| {
+                let enough = every * enough;
+                format!(
+                    "surface.thin = {enough} keeps every {} node, or free some memory (ulimit -v, \
+                     other programs)",
+                    ordinal(enough)
+                )
+            };
+            let (columns, rows) = (columns.div_ceil(every), rows.div_ceil(every));
+            memory::refuse_too_large(name, columns, rows, thinner)?;
             return Ok(every as usize);
         }
         let enough = (1..).find(|&every| fits(every, MAX_NODES)).unwrap_or(1);
@@ -60,7 +72,8 @@ impl Interpretation {
             format!("the header claims {columns} x {rows} nodes"),
             format!(
                 "a map has at most {MAX_SIDE} nodes a side and {MAX_NODES} in all: surface.thin = \
-                 {enough} keeps every {enough}th, and {} averages them",
+                 {enough} keeps every {} node, and {} averages them",
+                ordinal(enough),
                 gdal(&format!("gdal_translate -outsize {}% 0 -r average", 100 / enough), name)
             ),
         ))

@@ -10,7 +10,7 @@ use super::georeference::Georeference;
 use super::interpretation::{Interpretation, Thinning};
 use super::map::HeightMap;
 use super::source;
-use crate::scene::shown::{quote, shown, shown_path};
+use crate::scene::shown::{ordinal, quote, shown, shown_path};
 
 /// Cells of tiles differ by no more than this share of one, over a whole tile.
 const SAME: f64 = 1e-3;
@@ -91,7 +91,8 @@ fn assemble(tiles: Vec<Tile<'_>>, asked: &Interpretation) -> Result<HeightFile, 
     let mut notes: Vec<String> = Vec::new();
     notes.push(format!("{count} files make one map of {columns} x {rows} nodes"));
     if every > 1 {
-        notes.push(format!("every {every}th node of every {every}th row of it is read"));
+        let nth = ordinal(every as u64);
+        notes.push(format!("every {nth} node of every {nth} row of it is read"));
     }
     if differing > 0 {
         notes.push(format!(

@@ -215,6 +215,8 @@ fn buffers_survive_a_round_trip() {
             ("normal", Dtype::F8, 3),
             ("steps", Dtype::U4, 1),
             ("trials", Dtype::U4, 1),
+            ("error_px", Dtype::F8, 1),
+            ("cycles", Dtype::U4, 1),
             ("color", Dtype::U1, 3),
         ]
     );

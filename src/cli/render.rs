@@ -6,7 +6,7 @@ mod summary;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 use super::outputs::{self, Named};
 use super::scene_args::{Planned, SceneArgs};
@@ -16,7 +16,7 @@ use errors::Extent;
 use crate::engine::{Band, Engine, Machine, Wanted};
 use crate::sink::picture::{ErrorPart, ErrorView, Picture};
 use crate::sink::{npz, png};
-use crate::study::error::Sample;
+use crate::study::error::{PixelError, Sample};
 
 /// Draw one frame and say what it is worth and what it costs.
 #[derive(Debug, Args)]
@@ -51,6 +51,10 @@ pub struct Render {
     #[arg(long, value_name = "OUT.npz")]
     buffers: Option<PathBuf>,
 
+    /// Arrays that the file of --buffers holds besides, with commas between.
+    #[arg(long, value_enum, value_name = "ARRAYS", value_delimiter = ',')]
+    with: Vec<With>,
+
     #[command(flatten)]
     scene_out: SceneOut,
 
@@ -66,6 +70,15 @@ pub struct Render {
     /// One JSON object on stdout.
     #[arg(long)]
     json: bool,
+}
+
+/// Arrays that are measured for the buffers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum With {
+    /// Total error of every pixel against the oracle, as `error_px`; engines fast and processor.
+    Error,
+    /// Cycles of every pixel, as `cycles`; engine processor.
+    Cycles,
 }
 
 /// Pixels beyond which buffers are refused: they hold about 90 bytes each.
@@ -97,6 +110,7 @@ impl Render {
                 "{option}: it is about the picture of errors; add --picture error"
             )));
         }
+        self.check_with()?;
         outputs::check(self.outputs())?;
         let planned = self.scene.load()?;
         outputs::keep_inputs(self.outputs(), &self.scene.inputs(&planned))?;
@@ -120,13 +134,16 @@ impl Render {
                  example with --sample 1024"
             )));
         }
-        let drawn = report::while_waiting("drawing", || self.draw(&planned, buffers))?;
-        let summary = report::while_waiting("measuring", || self.summarise(&planned, &drawn))?;
+        let mut drawn = report::while_waiting("drawing", || self.draw(&planned, buffers))?;
+        let every = self.every_error(&planned, &drawn)?;
+        let every = every.as_deref();
+        let summary =
+            report::while_waiting("measuring", || self.summarise(&planned, &drawn, every))?;
         if let Some(path) = &self.output {
-            self.write_picture(path, &planned, &drawn)?;
+            self.write_picture(path, &drawn.band, every)?;
         }
         if let Some(path) = &self.buffers {
-            npz::write(path, &drawn.band.frame)?;
+            self.write_buffers(path, &mut drawn.band, every)?;
         }
         self.scene_out.write(scene_text.as_deref())?;
         if self.json {
@@ -134,6 +151,23 @@ impl Render {
         }
         report::print(&self.text(&planned, &summary));
         Ok(())
+    }
+
+    /// Refuses arrays that there is no file for, or that the engine does not have.
+    fn check_with(&self) -> Result<(), Stop> {
+        let refusal = if self.with.is_empty() {
+            return Ok(());
+        } else if self.buffers.is_none() {
+            "--with: it adds arrays to the buffers; add --buffers OUT.npz"
+        } else if self.with.contains(&With::Cycles) && self.engine != Engine::Processor {
+            "--with cycles: cycles are the processor's; add --engine processor"
+        } else if self.with.contains(&With::Error) && !self.engine.is_fixed() {
+            "--with error: errors are those of the machine in fixed point; give --engine fast or \
+             --engine processor"
+        } else {
+            return Ok(());
+        };
+        Err(Stop::BadInput(refusal.into()))
     }
 
     /// The files to write.
@@ -146,12 +180,12 @@ impl Render {
     }
 
     fn draw<'a>(&self, planned: &'a Planned, buffers: bool) -> Result<Drawn<'a>, Stop> {
-        let cycles = self.picture == Picture::Cycles;
-        if cycles && self.engine != Engine::Processor {
+        if self.picture == Picture::Cycles && self.engine != Engine::Processor {
             return Err(Stop::BadInput(
                 "--picture cycles: cycles are the processor's; add --engine processor".into(),
             ));
         }
+        let cycles = self.picture == Picture::Cycles || self.with.contains(&With::Cycles);
         let refused = |error| planned.refused(&error);
         let mut times = Vec::new();
         let mut setup = Duration::ZERO;
@@ -169,18 +203,32 @@ impl Render {
         }
     }
 
-    fn write_picture(&self, path: &Path, planned: &Planned, drawn: &Drawn<'_>) -> Result<(), Stop> {
-        let frame = &drawn.band.frame;
-        let errors = match self.picture {
-            Picture::Error => {
-                let scan = drawn.machine.scan_errors(Sample::all(&planned.plan));
-                let scan = scan.map_err(|error| planned.refused(&error))?;
-                Some(report::while_waiting("asking the oracle", || scan.finish()))
-            }
-            _ => None,
-        };
+    /// The errors of all pixels where a file shows them.
+    fn every_error(
+        &self,
+        planned: &Planned,
+        drawn: &Drawn<'_>,
+    ) -> Result<Option<Vec<PixelError>>, Stop> {
+        let pictured = self.output.is_some() && self.picture == Picture::Error;
+        if !pictured && !self.with.contains(&With::Error) {
+            return Ok(None);
+        }
+        let every = report::while_waiting("asking the oracle", || {
+            drawn.machine.errors(&Sample::all(&planned.plan))
+        });
+        every.map(Some).map_err(|error| planned.refused(&error))
+    }
+
+    fn write_picture(
+        &self,
+        path: &Path,
+        band: &Band,
+        every: Option<&[PixelError]>,
+    ) -> Result<(), Stop> {
+        let frame = &band.frame;
+        let errors = every.filter(|_| self.picture == Picture::Error).map(Band::of_errors);
         let view = ErrorView { part: self.error.unwrap_or_default(), high: self.range };
-        let painted = self.picture.with(errors.as_ref().unwrap_or(&drawn.band), view);
+        let painted = self.picture.with(errors.as_ref().unwrap_or(band), view);
         let painted = painted.unwrap_or_else(|| unreachable!("it was drawn"));
         png::write(path, frame.columns, frame.lines, &painted.pixels)?;
         if let Some(legend) = painted.legend {
@@ -194,5 +242,24 @@ impl Render {
             );
         }
         Ok(())
+    }
+
+    /// Writes buffers with the arrays that are asked for besides.
+    fn write_buffers(
+        &self,
+        path: &Path,
+        band: &mut Band,
+        every: Option<&[PixelError]>,
+    ) -> Result<(), Stop> {
+        if let Some(buffers) = &mut band.frame.buffers {
+            if self.with.contains(&With::Error) {
+                let errors = every.unwrap_or_default().iter();
+                buffers.error_px = errors.map(|pixel| pixel.total_px).collect();
+            }
+            if self.with.contains(&With::Cycles) {
+                buffers.cycles = std::mem::take(&mut band.cycles);
+            }
+        }
+        Ok(npz::write(path, &band.frame)?)
     }
 }

@@ -25,4 +25,10 @@ impl Engine {
             Self::Oracle => "oracle",
         }
     }
+
+    /// Whether it draws the machine's own frame, in fixed point.
+    #[must_use]
+    pub fn is_fixed(self) -> bool {
+        matches!(self, Self::Processor | Self::Fast)
+    }
 }

@@ -1,7 +1,8 @@
 //! The table of buffers: all that can be known of a pixel, written down once.
 //!
 //! A new buffer is a line of [`TABLE`] and its value in the two places that make a [`Pixel`]:
-//! `readout` for the engines, `oracle::draw` for the oracle.
+//! `readout` for the engines, `oracle::draw` for the oracle. Buffers that no engine gives are added
+//! to a frame by whoever measures them.
 
 use glam::DVec3;
 
@@ -122,13 +123,17 @@ element!(u32, U4, 1, 0, values => Scalars::U4(values));
 element!([u8; 3], U1, 3, [0; 3], values => Scalars::U1(values.as_flattened()));
 element!(Hit, U1, 1, Hit::Sky, values => Scalars::Hit(values));
 
-/// Which engines give a buffer; each also gives what those before it give.
+/// Who gives a buffer; of the engines, each also gives what those before it give.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Giver {
     /// All engines and the oracle.
     Engines,
     /// The units in their order only, in fixed point or in f64.
     Processor,
+    /// The study of errors, beside a frame in fixed point.
+    Errors,
+    /// The clock of the processor.
+    Clock,
 }
 
 /// A row of the table: one array of a frame.
@@ -140,7 +145,7 @@ pub struct BufferRow {
     pub dtype: Dtype,
     /// Scalars of a pixel.
     pub components: usize,
-    /// Which engines give it.
+    /// Who gives it.
     pub giver: Giver,
     /// What it holds, with its unit.
     pub holds: &'static str,
@@ -163,6 +168,7 @@ macro_rules! table {
     (
         always { hit: $hit:literal, color: $color:literal }
         on request { $($name:ident: $type:ty, $giver:ident, $holds:literal;)* }
+        measured { $($added:ident: $added_type:ty, $by:ident, $added_holds:literal;)* }
     ) => {
         /// What is known of one pixel beside its outcome and colour.
         #[derive(Clone, Copy, Debug, PartialEq)]
@@ -176,17 +182,21 @@ macro_rules! table {
         }
 
         /// The requested buffers of a frame, a value per pixel each; [`Element::MISS`] where the
-        /// ray meets nothing, empty where the engine does not give it.
+        /// ray meets nothing, empty where the engine does not give it or nobody has measured it.
         #[derive(Clone, Debug, Default, PartialEq)]
         pub struct Buffers {
             $(#[doc = concat!($holds, ".")] pub $name: Vec<$type>,)*
+            $(#[doc = concat!($added_holds, ".")] pub $added: Vec<$added_type>,)*
         }
 
         impl Buffers {
-            /// Room for this many pixels.
+            /// Room for this many pixels of an engine.
             #[must_use]
             pub fn with_room(pixels: usize) -> Self {
-                Self { $($name: Vec::with_capacity(pixels),)* }
+                Self {
+                    $($name: Vec::with_capacity(pixels),)*
+                    $($added: Vec::new(),)*
+                }
             }
 
             /// The next pixel, from who gives it.
@@ -200,22 +210,27 @@ macro_rules! table {
             /// Other pixels after these.
             pub fn append(&mut self, other: Self) {
                 $(self.$name.extend(other.$name);)*
+                $(self.$added.extend(other.$added);)*
             }
 
             /// All arrays, in the order of the table.
             #[must_use]
             pub fn scalars(&self) -> [Scalars<'_>; REQUESTED] {
-                [$(<$type>::scalars(&self.$name),)*]
+                [
+                    $(<$type>::scalars(&self.$name),)*
+                    $(<$added_type>::scalars(&self.$added),)*
+                ]
             }
         }
 
         /// Arrays that frames have on request only.
-        const REQUESTED: usize = [$(stringify!($name)),*].len();
+        const REQUESTED: usize = [$(stringify!($name),)* $(stringify!($added),)*].len();
 
         /// All arrays of a frame, in the order of files.
         pub static TABLE: [BufferRow; REQUESTED + 2] = [
             BufferRow::of::<Hit>("hit", Giver::Engines, $hit),
             $(BufferRow::of::<$type>(stringify!($name), Giver::$giver, $holds),)*
+            $(BufferRow::of::<$added_type>(stringify!($added), Giver::$by, $added_holds),)*
             BufferRow::of::<[u8; 3]>("color", Giver::Engines, $color),
         ];
     };
@@ -236,6 +251,12 @@ table! {
         normal: [f64; 3], Engines, "unit normal of the surface at that place";
         steps: u32, Engines, "index of the sample that hit; the oracle has none (0)";
         trials: u32, Processor, "skip tests: reads of the skip pyramid";
+    }
+    measured {
+        error_px: f64, Errors,
+            "total error against the oracle, pixels; infinite where the pixel is lost, NaN where the oracle sees no surface";
+        cycles: u32, Clock,
+            "cycles that the machine takes from the pixel before it, or the start, to this one, misses too; their sum is the frame's";
     }
 }
 

@@ -114,17 +114,25 @@ impl Machine<'_> {
         let comparison = Comparison { machine: self, real: self.real()? };
         Ok(Scan::new(0..sample.lines.len() as u32, move |lines, stop| {
             let rows = &sample.rows()[lines.start as usize..lines.end as usize];
-            let mut band = Band::default();
-            for pixel in comparison.pixels(rows, stop)? {
-                band.errors.push(ErrorParts {
-                    total: pixel.total_px,
-                    algorithm: pixel.algorithm_px,
-                    quantisation: pixel.quantisation_px,
-                });
-                band.silhouettes.push(pixel.sheet.is_silhouette());
-            }
-            Some(band)
+            Some(Band::of_errors(&comparison.pixels(rows, stop)?))
         }))
+    }
+}
+
+impl Band {
+    /// Errors of whole lines, as pictures show them.
+    #[must_use]
+    pub fn of_errors(pixels: &[PixelError]) -> Self {
+        let parts = |pixel: &PixelError| ErrorParts {
+            total: pixel.total_px,
+            algorithm: pixel.algorithm_px,
+            quantisation: pixel.quantisation_px,
+        };
+        Self {
+            errors: pixels.iter().map(parts).collect(),
+            silhouettes: pixels.iter().map(|pixel| pixel.sheet.is_silhouette()).collect(),
+            ..Self::default()
+        }
     }
 }
 

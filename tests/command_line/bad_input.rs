@@ -283,6 +283,32 @@ fn output_that_cannot_be_written() {
 }
 
 #[test]
+fn arrays_that_cannot_be_given() {
+    let folder = Folder::new();
+    let small = ["render", "plane", "--size", "8x8"];
+    let buffers = ["--buffers", "out.npz"];
+    for (options, file, remedy) in [
+        (&["--with", "error"][..], &[][..], "add --buffers OUT.npz"),
+        (&["--with", "cycles"], &buffers, "add --engine processor"),
+        (&["--with", "cycles", "--engine", "real"], &buffers, "add --engine processor"),
+        (&["--with", "error,cycles", "--engine", "oracle"], &buffers, "add --engine processor"),
+        (
+            &["--with", "error", "--engine", "real"],
+            &buffers,
+            "give --engine fast or --engine processor",
+        ),
+        (
+            &["--with", "error", "--engine", "oracle"],
+            &buffers,
+            "give --engine fast or --engine processor",
+        ),
+    ] {
+        let message = refused(&folder, &[&small[..], options, file].concat());
+        assert!(message.contains("terraline: --with") && message.contains(remedy), "{message}");
+    }
+}
+
+#[test]
 fn pictures_that_cannot_be_compared() {
     let folder = Folder::new();
     write_map(&folder.path("whole.png"), 8, 8, |i, j| (i * j) as u16);

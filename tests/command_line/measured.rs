@@ -1,5 +1,7 @@
 //! What `render` says of errors: the sample, the worst pixel, every kind of disagreement.
 
+use terraline::sink::npz::Npz;
+
 use super::{Folder, write_map};
 
 #[test]
@@ -63,6 +65,57 @@ fn worst_is_a_lost_pixel_or_an_overflow_where_there_is_one() {
     let (plain, errors) = worst(&["plane", "--size", "60x40", "--set", "camera.pitch=-40"]);
     assert_eq!(errors["lost"]["total"], 0);
     assert!(plain["error_px"].is_number() && plain["why"].as_str().unwrap().contains("off"));
+}
+
+#[test]
+fn buffers_hold_errors_and_cycles_where_they_are_asked_for() {
+    let folder = Folder::new();
+    // Steps of a cell lose ridges.
+    let scene = ["render", "overview", "--size", "120x100", "--set", "stepper.fineness=0"];
+    let render = |more: &[&str]| folder.json(&[&scene[..], more].concat());
+    let array = |file: &str, name: &str| {
+        let mut npz = Npz::open(&folder.path(file)).expect("buffers");
+        npz.array(name).and_then(|array| array.read_all()).expect("an array")
+    };
+    let processor = ["--engine", "processor", "--with", "error,cycles"];
+    let files = ["--buffers", "processor.npz", "-o", "with.png", "--sample", "all"];
+    let summary = render(&[&processor[..], &files].concat());
+
+    let (errors, found) = (array("processor.npz", "error_px"), &summary["errors"]);
+    let count = |is: fn(&f64) -> bool| errors.iter().filter(|error| is(error)).count();
+    assert_eq!(errors.len(), 120 * 100);
+    assert_eq!(found["lost"]["total"], count(|error| error.is_infinite()));
+    assert_eq!(found["reference"], count(|error| !error.is_nan()));
+    assert!(count(|error| error.is_nan()) > 0 && count(|error| error.is_infinite()) > 0);
+    let finite = errors.iter().copied().filter(|error| error.is_finite());
+    assert_eq!(found["total_px"]["max"], finite.fold(0.0, f64::max));
+    let at = |axis: &str| summary["worst"][axis].as_u64().expect("a pixel") as usize;
+    assert!(errors[at("line") * 120 + at("column")].is_infinite(), "{}", summary["worst"]);
+
+    let cycles = array("processor.npz", "cycles");
+    assert_eq!(summary["cycles"].as_f64(), Some(cycles.iter().sum()));
+    assert!(cycles.iter().any(|&one| one != cycles[1]), "they are no mean");
+
+    // The same errors whoever draws the frame, whatever else is measured and drawn.
+    let fast = ["--with", "error", "--buffers", "fast.npz", "--sample", "0"];
+    render(&[&fast[..], &["--picture", "error", "-o", "errors.png"]].concat());
+    render(&["--buffers", "plain.npz", "-o", "without.png", "--sample", "0"]);
+    render(&["--picture", "error", "-o", "errors-alone.png", "--sample", "0"]);
+    let bits = |errors: Vec<f64>| errors.into_iter().map(f64::to_bits).collect::<Vec<_>>();
+    assert_eq!(bits(array("fast.npz", "error_px")), bits(errors));
+    assert_eq!(folder.read("with.png"), folder.read("without.png"));
+    assert_eq!(folder.read("errors.png"), folder.read("errors-alone.png"));
+
+    // Comparing names them, and counts none that was not asked for.
+    let text = folder.prints(&["compare", "processor.npz", "plain.npz", "--max-diff", "0"]);
+    for name in ["trials", "error_px", "cycles"] {
+        assert!(
+            text.contains(&format!("{name}: only in the first, which no --max-diff")),
+            "{text}"
+        );
+    }
+    let text = folder.prints(&["compare", "processor.npz", "fast.npz", "--max-diff", "0"]);
+    assert!(text.contains("error_px: identical, 12000 elements"), "{text}");
 }
 
 #[test]

@@ -77,8 +77,9 @@ pub fn buffers() -> String {
     let mut out = String::from(
         "# Buffers\n\n\
          `render --buffers OUT.npz` writes numpy arrays of shape [lines, columns], or [lines, columns, 3], from\n\
-         the top left. Misses (sky, out of range) are NaN in floats and 0 in integers. This page is generated from\n\
-         the table in `src/frame/buffers.rs`.\n\n\
+         the top left. Misses (sky, out of range) are NaN in floats and 0 in integers. Arrays with\n\
+         `--with` are there only if it is given; `--with error,cycles` gives both, and measures every pixel.\n\
+         This page is generated from the table in `src/frame/buffers.rs`.\n\n\
          | array | type | given by | holds |\n|---|---|---|---|\n",
     );
     for BufferRow { name, dtype, components, giver, holds } in &TABLE {
@@ -87,6 +88,8 @@ pub fn buffers() -> String {
         let giver = match giver {
             Giver::Engines => "all",
             Giver::Processor => "processor, real",
+            Giver::Errors => "`--with error`: fast, processor",
+            Giver::Clock => "`--with cycles`: processor",
         };
         let _ = writeln!(out, "| `{name}` | {dtype}{times} | {giver} | {holds} |");
     }

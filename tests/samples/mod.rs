@@ -10,7 +10,7 @@ pub fn folder() -> TempDir {
     tempfile::tempdir().expect("a temporary folder")
 }
 
-/// A frame with every outcome, misses and values of many sizes.
+/// A frame with every array and outcome, misses and values of many sizes.
 pub fn frame(columns: usize, lines: usize) -> Frame {
     let n = columns * lines;
     let outcome = |i: usize| [Hit::Surface, Hit::Sky, Hit::Side, Hit::OutOfRange][i % 4];
@@ -28,7 +28,10 @@ pub fn frame(columns: usize, lines: usize) -> Frame {
             steps: i as u32 * 65_537,
             trials: i as u32,
         };
-        frame.buffers.as_mut().expect("asked for").push(pixel, Giver::Processor);
+        let buffers = frame.buffers.as_mut().expect("asked for");
+        buffers.push(pixel, Giver::Processor);
+        buffers.error_px.push(if i % 5 == 2 { f64::INFINITY } else { value(i, 1e-3) });
+        buffers.cycles.push(i as u32 % 97);
     }
     frame
 }

@@ -6,7 +6,9 @@ use super::super::report;
 use crate::engine::Machine;
 use crate::frame::Hit;
 use crate::setup::SetupError;
-use crate::study::error::{Counts, ErrorReport, Outcomes, Sample, Sheet, Spread, Worst};
+use crate::study::error::{
+    Counts, ErrorReport, Outcomes, PixelError, Sample, Sheet, Spread, Worst,
+};
 use crate::word::Register;
 
 /// Suspects that are measured for each pixel of the sample.
@@ -34,16 +36,30 @@ impl Extent {
         }
     }
 
-    /// Measures a machine's errors there; nothing where that is on no pixel.
-    pub(super) fn measure(self, machine: &Machine<'_>) -> Result<Option<ErrorReport>, SetupError> {
+    /// Measures a machine's errors there; nothing where that is on no pixel. Those of `every` pixel
+    /// are not measured again where they are known.
+    pub(super) fn measure(
+        self,
+        machine: &Machine<'_>,
+        every: Option<&[PixelError]>,
+    ) -> Result<Option<ErrorReport>, SetupError> {
         let (plan, scene) = (machine.plan(), machine.scene());
         let sample = match self {
             Self::Strips(0) => return Ok(None),
             Self::All => Sample::all(plan),
             Self::Strips(count) => Sample::strips(plan, count, scene.seed),
         };
-        let report = ErrorReport::new(&sample, &machine.errors(&sample)?, scene.unit_m);
-        if sample == Sample::all(plan) {
+        let whole = sample == Sample::all(plan);
+        let measured;
+        let pixels = match every.filter(|_| whole) {
+            Some(every) => every,
+            None => {
+                measured = machine.errors(&sample)?;
+                &measured
+            }
+        };
+        let report = ErrorReport::new(&sample, pixels, scene.unit_m);
+        if whole {
             return Ok(Some(report));
         }
         let suspects = machine.suspects(SUSPECTS * sample.len(), &sample)?;

@@ -10,7 +10,7 @@ use crate::engine::Engine;
 use crate::frame::Hit;
 use crate::plan::units::UnitPlan;
 use crate::study::cost::Cost;
-use crate::study::error::{ErrorReport, Sample};
+use crate::study::error::{ErrorReport, PixelError, Sample};
 
 /// Lines whose cycles and operations the summary counts.
 const COST_LINES: u32 = 32;
@@ -67,8 +67,13 @@ pub(super) struct Summary {
 }
 
 impl Render {
-    /// Measures a drawn frame.
-    pub(super) fn summarise(&self, planned: &Planned, drawn: &Drawn<'_>) -> Result<Summary, Stop> {
+    /// Measures a drawn frame; `every` holds the errors of all pixels where they are known.
+    pub(super) fn summarise(
+        &self,
+        planned: &Planned,
+        drawn: &Drawn<'_>,
+        every: Option<&[PixelError]>,
+    ) -> Result<Summary, Stop> {
         let machine = &drawn.machine;
         let Planned { scene, plan, world, invocation, framing, .. } = planned;
         let count = |hit| drawn.band.frame.hit.iter().filter(|h| **h == hit).count();
@@ -80,9 +85,8 @@ impl Render {
         let cycles = if self.engine == Engine::Processor { &all } else { &lines };
         let refused = |error| planned.refused(&error);
         let cost = machine.cost(cycles, &lines).map_err(refused)?;
-        let fixed = matches!(self.engine, Engine::Fast | Engine::Processor);
-        let errors = match fixed {
-            true => self.sample.measure(machine).map_err(refused)?,
+        let errors = match self.engine.is_fixed() {
+            true => self.sample.measure(machine, every).map_err(refused)?,
             false => None,
         };
         let overflow = drawn.band.overflows.registers.first();

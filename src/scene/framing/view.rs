@@ -39,7 +39,7 @@ const STEPS: [f64; 7] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0];
 /// Field of view across the width, in degrees.
 const FIELD: f64 = 45.0;
 
-/// Degrees down. With [`FIELD`], no ray of a screen that is wider than high looks up.
+/// Degrees down. With the field of view, no ray of a screen that is wider than high looks up.
 pub const PITCH: f64 = -35.0;
 
 /// A sample beyond this is no height.

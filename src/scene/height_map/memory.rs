@@ -70,6 +70,7 @@ fn limit(limits: &str) -> Option<u64> {
 ///
 /// # Errors
 /// If it is none; the text says what to give.
+#[cfg(feature = "cli")]
 pub fn bytes(text: &str) -> Result<u64, String> {
     let (number, unit) = text.split_at(text.len() - text.chars().last().map_or(0, char::len_utf8));
     let factor = match unit {
@@ -106,6 +107,7 @@ mod tests {
         assert!(!cfg!(target_os = "linux") || available().is_some_and(|bytes| bytes > 1 << 20));
     }
 
+    #[cfg(feature = "cli")]
     #[test]
     fn amounts() {
         assert_eq!(bytes("600M"), Ok(600_000_000));
@@ -113,6 +115,10 @@ mod tests {
         for text in ["", "G", "600", "-1G", "nanG", "1K", "9ä"] {
             assert!(bytes(text).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn in_gigabytes() {
         assert_eq!(in_words(1_260_000_000), "1.3 GB");
         assert_eq!(in_words(600_000_000), "600 MB");
     }

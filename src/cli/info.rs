@@ -127,11 +127,12 @@ fn describe(path: &Path, reading: &Reading) -> Result<Described, Stop> {
     }
     let asked =
         Interpretation { thinning: Thinning::Fit(MAX_NODES), ..reading.interpretation() };
-    let HeightFile { map, mut georeference, storage, whole, every, nodata, mut notes } =
+    let HeightFile { map, mut georeference, storage, whole, whole_origin, every, nodata, mut notes } =
         source::read(path, &asked)?;
     // The file is described, not what is kept of it.
     let (columns, rows) = whole;
     georeference.cell = georeference.cell.map(|cell| cell / every as f64);
+    georeference.origin = whole_origin;
     let (lowest, highest) = map.range();
     let voids = map.voids();
     let extent = georeference

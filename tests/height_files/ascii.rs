@@ -89,3 +89,10 @@ fn mistakes_are_located() {
     let boast = change("ncols 3", "ncols 8000").replace("nrows 2", "nrows 8000");
     refused(boast.as_bytes(), "boast.asc", &["6 of 64000000"]);
 }
+
+#[test]
+fn what_c_programs_write_for_no_number_is_no_data() {
+    let text =
+        "dx 30\ndy 30\nncols 4\nnrows 1\nxllcorner 0\nyllcorner 0\n1.#QNAN -nan(ind) nan 7\n";
+    assert_eq!(read(text.as_bytes(), "nan.asc").map.voids(), 3);
+}

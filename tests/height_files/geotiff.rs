@@ -37,7 +37,9 @@ fn forms() -> Vec<Form> {
     for kind in Kind::ALL {
         for compression in [1, 5, 8, 32946, 32773, 50000] {
             for predictor in [1, 2, 3] {
-                if predictor == 3 && kind.format != 3 {
+                // Elsewhere the tag means nothing.
+                let packed = !matches!(compression, 1 | 32773);
+                if predictor != 1 && !packed || predictor == 3 && kind.format != 3 {
                     continue;
                 }
                 for layout in [Layout::Strips(usize::MAX), Layout::Strips(4), Layout::Tiles(16, 16)]
@@ -73,7 +75,7 @@ fn other_reader(bytes: &[u8]) -> Option<Vec<f64>> {
 fn every_form_reads_as_it_was_written() {
     let mut confirmed = 0;
     let forms = forms();
-    assert_eq!(forms.len(), 1800);
+    assert_eq!(forms.len(), 1464);
     for form in &forms {
         let bytes = TiffFile::new(COLUMNS, ROWS, form, |i, j| value(form.kind, i, j)).bytes();
         let file = read(&bytes, "all.tif");
@@ -91,8 +93,8 @@ fn every_form_reads_as_it_was_written() {
             confirmed += 1;
         }
     }
-    // It gives up on some LZW tiles only.
-    assert!(confirmed > 1000, "{confirmed}");
+    // It has neither Zstandard nor 16-bit floats, and gives up on some LZW tiles.
+    assert!(confirmed > 800, "{confirmed}");
 }
 
 #[test]
@@ -234,7 +236,8 @@ fn what_is_no_height_map_is_refused_by_name() {
         (small().with(259, SHORT, &[50000]), &["cannot be unpacked"]),
         (small().with(259, SHORT, &[7]), &["JPEG"]),
         (small().with(259, SHORT, &[999]), &["999"]),
-        (small().with(317, SHORT, &[9]), &["predictor 9"]),
+        (small().with(259, SHORT, &[8]).with(317, SHORT, &[9]), &["predictor 9"]),
+        (small().with(266, SHORT, &[2]), &["fill order 2", "gdal_translate no.tif"]),
         (small().with(284, SHORT, &[7]), &["planes"]),
     ] {
         refused(&file.bytes(), "no.tif", words);
@@ -242,6 +245,7 @@ fn what_is_no_height_map_is_refused_by_name() {
     // One band in planes of its own is one band.
     assert_eq!(read(&small().with(284, SHORT, &[2]).bytes(), "p.tif").map.range(), (0.0, 11.0));
     let ints = Form { kind: Kind { format: 2, bits: 16 }, ..Form::plain() };
+    let ints = Form { compression: 8, ..ints };
     let file = TiffFile::new(4, 3, &ints, |i, _| i as f64).with(317, SHORT, &[3]);
     refused(&file.bytes(), "no.tif", &["predictor 3 does not fit int16"]);
 }

@@ -119,6 +119,16 @@ fn other_formats_in_zip_and_gzip() {
     let file = read(&gzip(&tile(31)), "S12W077.hgt.gz");
     assert_eq!(file.georeference.origin, Some(DVec2::new(-77.0, -11.0)));
     refused(&gzip(&gzip(&tiff)), "twice.gz", &["packed file in a packed file"]);
+    // Members one after another, and what programs pad a file with.
+    let (head, tail) = tiff.split_at(tiff.len() / 2);
+    let padded = [gzip(head), gzip(tail), vec![0; 512]].concat();
+    assert_eq!(read(&padded, "map.tif.gz").map.columns(), 4);
+    // Remedies name a file inside another as GDAL does.
+    let odd = super::tiff_file::TiffFile::small().with(266, super::tiff_file::SHORT, &[2]).bytes();
+    refused(&gzip(&odd), "a.tif.gz", &["gdal_translate /vsigzip/a.tif.gz a-new.tif"]);
+    let zip = zipped(&[("dem/map.tif", &odd)]);
+    refused(&zip, "b.zip", &["gdal_translate /vsizip/b.zip/dem/map.tif map-new.tif"]);
+    refused(b"PK\x05\x06", "empty.zip", &["without any file"]);
     let whole = gzip(&tiff);
     refused(&whole[..whole.len() / 2], "cut.gz", &["gzip file cannot be unpacked"]);
 }

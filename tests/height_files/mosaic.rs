@@ -104,3 +104,34 @@ fn tiles_that_do_not_fit() {
     let message = tiles.read(&Interpretation::default()).unwrap_err();
     assert!(message.contains("bare.tif") && message.contains("where it lies"), "{message}");
 }
+
+#[test]
+fn tiles_on_both_sides_of_180_degrees() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let paths: Vec<PathBuf> =
+        ["N00E179.hgt", "N00W180.hgt"].map(|name| folder.path().join(name)).into();
+    for (tile, path) in paths.iter().enumerate() {
+        let height = |k: i16| 100 * tile as i16 + k % 11;
+        let bytes: Vec<u8> = (0..121).flat_map(|k| height(k).to_be_bytes()).collect();
+        std::fs::write(path, bytes).expect("a file");
+    }
+    for paths in [paths.clone(), vec![paths[1].clone(), paths[0].clone()]] {
+        let file = mosaic::read(&paths, &Interpretation::default()).unwrap();
+        assert_eq!((file.map.columns(), file.map.rows()), (21, 11));
+        assert_eq!((file.map.sample(0, 0), file.map.sample(20, 0)), (0.0, 110.0));
+    }
+}
+
+#[test]
+fn a_tile_without_data_adds_nothing() {
+    let mut tiles = Tiles::new().with(10.0, 50.0, 5, 4, 30.0);
+    let sea = TiffFile::new(5, 4, &Form::plain(), |_, _| -9999.0).with_text(42113, "-9999");
+    let path = tiles.folder.path().join("sea.tif");
+    std::fs::write(&path, sea.bytes()).expect("a file");
+    tiles.paths.insert(0, path);
+    let file = tiles.read(&Interpretation::default()).unwrap();
+    assert_eq!((file.map.columns(), file.map.rows()), (5, 4));
+    assert!(file.notes.iter().any(|note| note.contains("1 of the files have no data")));
+    tiles.paths.truncate(1);
+    assert!(tiles.read(&Interpretation::default()).unwrap_err().contains("no node has data"));
+}

@@ -175,7 +175,59 @@ fn thinned_rows_that_run_north_end_at_a_row_that_is_kept() {
     );
     let asked = Interpretation { thinning: Thinning::Every(4), ..Interpretation::default() };
     let file = source::decode(&file.bytes(), "north.tif", &asked).unwrap();
+    // The file as a whole reaches one row further north.
+    assert_eq!(file.whole_origin, Some(glam::DVec2::new(0.0, 29.0 * 30.0)));
     // Rows 0, 4, … 28 of the file, the last one in the north.
     assert_eq!(file.map.sample(0, 0), sample(0, 28) as f32);
     assert_eq!(file.georeference.origin, Some(glam::DVec2::new(0.0, 28.0 * 30.0)));
+}
+
+#[test]
+fn a_predictor_of_what_is_not_packed_means_nothing() {
+    for compression in [1, 32773] {
+        let form = Form { compression, ..Form::plain() };
+        let file = TiffFile::new(20, 30, &form, sample).with(317, SHORT, &[3]);
+        is_whole(&file.bytes(), &format!("compression {compression}"));
+    }
+}
+
+#[test]
+fn lerc_of_big_endian_files_holds_bytes_turned_round() {
+    let turned = |value: f64| f32::from_bits((value as f32).to_bits().swap_bytes());
+    let values: Vec<f32> = (0..600).map(|k| turned(f64::from(k))).collect();
+    let blob = lerc::encode_slice(20, 30, &values, lerc::Precision::Lossless).unwrap();
+    let form = Form { big_endian: true, ..Form::plain() };
+    let mut file = TiffFile::new(20, 30, &form, sample).with(259, SHORT, &[34887]);
+    file.blocks = vec![blob];
+    is_whole(&file.bytes(), "big-endian");
+    // A block of one height is a few bytes, however large it is.
+    let blob = lerc::encode_slice(2048, 2048, &vec![7.0_f32; 1 << 22], lerc::Precision::Lossless);
+    let mut flat = TiffFile::new(1, 1, &Form::plain(), sample)
+        .with(256, LONG, &[2048])
+        .with(257, LONG, &[2048])
+        .with(278, LONG, &[2048])
+        .with(259, SHORT, &[34887]);
+    flat.blocks = vec![blob.unwrap()];
+    assert_eq!(read(&flat.bytes(), "flat.tif").map.range(), (7.0, 7.0));
+}
+
+#[test]
+fn a_scale_counts_more_than_a_matrix() {
+    let list = [7.0, 0.0, 0.0, 1.0, 0.0, -7.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+    let both = TiffFile::new(20, 30, &Form::plain(), sample)
+        .with_doubles(34264, &list)
+        .with_doubles(33550, &[30.0, 30.0, 0.0])
+        .with_doubles(33922, &[0.0; 6]);
+    let cell = read(&both.bytes(), "both.tif").georeference.cell;
+    assert_eq!(cell, Some(glam::DVec2::splat(30.0)));
+}
+
+#[test]
+fn claims_that_would_take_long_are_refused() {
+    // 2^20 x 20000 nodes of one small strip each.
+    let long = TiffFile::small().with(256, LONG, &[1 << 20]).with(257, LONG, &[20_000]);
+    super::refused(&long.bytes(), "long.tif", &["1048576 x 20000"]);
+    let many =
+        TiffFile::small().with(33550, SHORT, &vec![1; 70_000]).with_doubles(33922, &[0.0; 6]);
+    super::refused(&many.bytes(), "many.tif", &["tag 33550 holds 70000 numbers"]);
 }

@@ -115,6 +115,10 @@ fn units_of_heights() {
     near(of(&[(4096, 5703)], &[]), 1.0);
     near(of(&[(4096, 32767)], &[(4097, "NAVD88 height (ftUS)")]), SURVEY_FOOT);
     near(of(&[], &[(1026, "UTM zone 13N + NAVD88 height (ft)")]), 0.3048);
+    near(of(&[], &[(4097, "VERTCS[\"N\",VDATUM[\"N\"],UNIT[\"Foot\",0.3048]]")]), 0.3048);
+    // Geographic systems with heights, and heights above an ellipsoid.
+    near(of(&[(4096, 4979)], &[]), 1.0);
+    near(of(&[(4096, 5030)], &[]), 1.0);
     // A datum says nothing of units.
     assert_eq!(of(&[(4096, 5103)], &[]), None);
     assert_eq!(of(&[], &[]), None);
@@ -173,6 +177,17 @@ fn a_metre_is_a_metre_on_the_ground() {
     is_silent_of(&utm, "on the ground");
     says(&at_60(&[(1024, 1), (3072, 5070)], 2e6), "not lengths on the ground");
     says(&at_60(&[(1024, 1), (3072, 32767), (3075, 24)], 2e6), "sinusoidal");
+    says(&at_60(&[(1024, 1), (3072, 3347)], 2e6), "Lambert conic of wide parallels");
+    is_silent_of(&at_60(&[(1024, 1), (3072, 2154)], 6.7e6), "on the ground");
+    says(&at_60(&[(1024, 1), (3072, 40000)], 2e6), "projected coordinates is not stated");
+    // The Moon's south in a system that counts from 80° S: true to scale there.
+    let south = TiffFile::small()
+        .with_doubles(33922, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+        .with_doubles(33550, &[100.0, 100.0, 0.0]);
+    let numbers = [(2057, 1_737_400.0), (2059, 0.0), (3078, -80.0), (3089, -80.0)];
+    let south = with_keys(south, &[(1024, 1), (3072, 32767), (3075, 17)], &numbers, &[]);
+    let cell = read(&south.bytes(), "moon.tif").georeference.cell_m(4, 3).unwrap();
+    assert!((cell - DVec2::splat(100.0)).abs().max_element() < 0.1, "{cell}");
     // Cells of a map of the globe are not alike.
     let globe = with_keys(
         TiffFile::small()
@@ -203,6 +218,10 @@ fn scale_and_offset_are_applied() {
     let marked = read(&marked.bytes(), "s.tif");
     assert_eq!((marked.map.range(), marked.map.voids()), ((53.9, 54.2), 1));
     says(&marked, "times 0.1 plus -100.0");
+    // Numbers are read as far as they go.
+    let tail = items.replace("0.1<", "0.1 m<");
+    let tail = file.clone().with_text(42112, &metadata(&tail)).with_text(42113, "-32768");
+    assert_eq!(read(&tail.bytes(), "s.tif").map.range(), (53.9, 54.2));
     // The mark that is missing is named as it is stored.
     says(&read(&file.with_text(42112, &metadata(items)).bytes(), "s.tif"), "add --nodata -32768");
 }

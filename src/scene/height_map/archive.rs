@@ -3,14 +3,17 @@
 use std::io::{Cursor, Read};
 use std::path::Path;
 
-use flate2::read::MultiGzDecoder;
+use flate2::bufread::GzDecoder;
 use zip::ZipArchive;
 
-use super::error::{DEFLATE_RATIO, MapError};
+use super::error::{DEFLATE_RATIO, MAX_NODES, MapError};
 use crate::scene::shown::one_line;
 
 /// A zip file of one map has few entries; a directory of more is not walked.
 const MAX_ENTRIES: usize = 1000;
+
+/// What a member of a gzip file begins with.
+const GZIP: &[u8] = b"\x1f\x8b";
 
 /// Endings of the height files that are looked for.
 const ENDINGS: [&str; 6] = [".hgt", ".tif", ".tiff", ".asc", ".png", ".gtiff"];
@@ -24,13 +27,19 @@ pub(super) struct Unpacked {
 
 /// Unpacks a gzip file.
 pub(super) fn gunzip(bytes: &[u8], name: &str, limit: u64) -> Result<Unpacked, MapError> {
-    // What follows the file, as some programs pad it, is none.
-    let mut unpacked = Vec::new();
+    let limit = limit_of(name.trim_end_matches(".gz"), limit);
     let honest = (bytes.len() as u64).saturating_mul(DEFLATE_RATIO).min(limit);
-    MultiGzDecoder::new(bytes)
-        .take(honest + 1)
-        .read_to_end(&mut unpacked)
-        .map_err(|error| broken(name, "gzip", &error.to_string()))?;
+    let mut unpacked = Vec::new();
+    let mut rest = bytes;
+    // One member after another; what follows the last one, as some programs pad it, is none.
+    while rest.starts_with(GZIP) && unpacked.len() as u64 <= honest {
+        let left = honest + 1 - unpacked.len() as u64;
+        let mut member = GzDecoder::new(rest).take(left);
+        member
+            .read_to_end(&mut unpacked)
+            .map_err(|error| broken(name, "gzip", &error.to_string()))?;
+        rest = member.into_inner().into_inner();
+    }
     if unpacked.len() as u64 > limit {
         return Err(too_much(name, unpacked.len() as u64));
     }
@@ -66,7 +75,7 @@ pub(super) fn unzip(bytes: &[u8], name: &str, limit: u64) -> Result<Unpacked, Ma
         ));
     };
     let entry = archive.by_name(map).map_err(|error| damaged(&error.to_string()))?;
-    let size = entry.size();
+    let (size, limit) = (entry.size(), limit_of(map, limit));
     // What an entry claims to unpack to is checked against what its bytes can hold.
     let honest = (bytes.len() as u64).saturating_mul(DEFLATE_RATIO);
     if size > limit || size > honest {
@@ -85,6 +94,11 @@ fn is_map(entry: &str) -> bool {
     let small = entry.to_lowercase();
     let hidden = small.split(['/', '\\']).any(|part| part == "__macosx" || part.starts_with('.'));
     !hidden && ENDINGS.iter().any(|ending| small.ends_with(ending))
+}
+
+/// The most bytes of a file: a tile has two bytes a height.
+fn limit_of(name: &str, limit: u64) -> u64 {
+    if name.to_lowercase().ends_with(".hgt") { limit.min(2 * MAX_NODES) } else { limit }
 }
 
 fn broken(name: &str, kind: &str, reason: &str) -> MapError {

@@ -18,9 +18,12 @@ const MARK: &[u8] = b"\xEF\xBB\xBF";
 /// Whether a file begins as such a grid does.
 pub(super) fn begins(bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(MARK).unwrap_or(bytes).trim_ascii_start();
-    ["ncols", "nrows", "xll", "yll", "cellsize"].iter().any(|key| {
+    let starts = |key: &str| {
         text.get(..key.len()).is_some_and(|head| head.eq_ignore_ascii_case(key.as_bytes()))
-    })
+    };
+    let word = |key: &str| starts(key) && text.get(key.len()).is_some_and(u8::is_ascii_whitespace);
+    ["ncols", "nrows", "xll", "yll", "cellsize", "nodata"].into_iter().any(starts)
+        || ["dx", "dy"].into_iter().any(word)
 }
 
 /// Words of a text and the lines they stand in.
@@ -55,6 +58,11 @@ impl<'a> Words<'a> {
         let text = std::str::from_utf8(word).unwrap_or_default();
         if let Ok(number) = text.parse() {
             return Ok(number);
+        }
+        // C libraries of Windows write NaN in many ways.
+        let small = text.to_ascii_lowercase();
+        if ["-nan", "1.#qnan", "1.#ind", "nan("].iter().any(|nan| small.contains(nan)) {
+            return Ok(f64::NAN);
         }
         let shown: String = String::from_utf8_lossy(word).chars().take(20).collect();
         if word.contains(&b',') && text.replace(',', ".").parse::<f64>().is_ok() {
@@ -282,6 +290,16 @@ pub(super) fn decode(
         byte_order: None,
     };
     let (nodata, samples) = (header.nodata, thinned(samples, columns, every));
-    Found { columns, rows, samples, storage, georeference, nodata, conversion, notes }
-        .finish(name, every, asked)
+    Found {
+        columns,
+        rows,
+        samples,
+        storage,
+        georeference,
+        nodata,
+        turned_over: false,
+        conversion,
+        notes,
+    }
+    .finish(name, every, asked)
 }

@@ -32,9 +32,13 @@ fn is_among(ranges: &[(u16, u16)], code: u16) -> bool {
     ranges.iter().any(|(first, last)| (*first..=*last).contains(&code))
 }
 
-/// Metres of the unit of a projected system.
-pub(super) fn projected_unit_m(code: u16) -> f64 {
-    among(table::PROJECTED_UNITS, code).and_then(metres).unwrap_or(1.0)
+/// Codes of projected systems lie between these.
+const PROJECTED: std::ops::RangeInclusive<u16> = 2000..=32766;
+
+/// Metres of the unit of a projected system; `None` of a code that is none.
+pub(super) fn projected_unit_m(code: u16) -> Option<f64> {
+    let unit = among(table::PROJECTED_UNITS, code).and_then(metres);
+    unit.or(PROJECTED.contains(&code).then_some(1.0))
 }
 
 /// How lengths of a projected system relate to lengths on the ground.
@@ -48,6 +52,7 @@ pub(super) fn projection(code: u16) -> Projection {
             method,
             scale,
             standard_parallel,
+            origin_latitude: 0.0,
             false_northing: northing,
         })
     })
@@ -78,9 +83,10 @@ pub(super) fn is_geographic(code: u16) -> bool {
     is_among(table::GEOGRAPHIC, code)
 }
 
-/// Whether a geographic system has heights, which are metres.
+/// Whether a geographic system has heights, which are metres; or the code is one of the first
+/// GeoTIFF for heights above an ellipsoid.
 pub(super) fn has_heights(code: u16) -> bool {
-    is_among(table::SOLID, code)
+    is_among(table::SOLID, code) || (5001..=5033).contains(&code)
 }
 
 /// Degrees of the unit of a geographic system.
@@ -102,7 +108,7 @@ mod tests {
             (2222, 0.3048),      // Arizona East
             (27700, 1.0),        // British National Grid
         ] {
-            assert!((projected_unit_m(code) / unit_m - 1.0).abs() < 1e-12, "{code}");
+            assert!((projected_unit_m(code).unwrap() / unit_m - 1.0).abs() < 1e-12, "{code}");
         }
         for (code, unit_m, is_depth) in [
             (5703, 1.0, false),
@@ -118,7 +124,9 @@ mod tests {
         assert!(vertical(5103).is_none());
         assert!(is_geographic(4326) && is_geographic(4807) && !is_geographic(32613));
         assert_eq!((geographic_unit(4326), geographic_unit(4807)), (1.0, 0.9));
-        assert!(has_heights(4979) && !has_heights(4326));
+        assert_eq!(projected_unit_m(40_000), None);
+        assert!(matches!(projection(3347), Projection::Distorted(_)));
+        assert!(has_heights(5030) && has_heights(4979) && !has_heights(4326));
         assert_eq!(projection(32613), Projection::TrueToScale);
         assert!(matches!(projection(5070), Projection::Distorted(name) if name.contains("Albers")));
         assert!(matches!(projection(3857), Projection::Cylindrical(_)));

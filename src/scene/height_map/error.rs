@@ -40,6 +40,9 @@ impl MapError {
 /// A header that claims more nodes than this in one direction is not believed.
 const LARGEST_CLAIM: u64 = 1 << 20;
 
+/// Nor one that claims more in all: the largest grids of the whole Earth have fewer.
+const MOST_CLAIMED: u64 = 1 << 32;
+
 /// Refuses a map of no nodes, and claims that no file can keep.
 pub(super) fn check_sides(name: &str, columns: u64, rows: u64) -> Result<(), MapError> {
     if columns == 0 || rows == 0 {
@@ -49,7 +52,7 @@ pub(super) fn check_sides(name: &str, columns: u64, rows: u64) -> Result<(), Map
             "give a file that holds a map",
         ));
     }
-    if columns.max(rows) > LARGEST_CLAIM {
+    if columns.max(rows) > LARGEST_CLAIM || columns * rows > MOST_CLAIMED {
         return Err(too_large(name, &format!("the header claims {columns} x {rows} nodes")));
     }
     Ok(())
@@ -78,6 +81,14 @@ pub(super) fn too_large(name: &str, reason: &str) -> MapError {
 
 /// A command that makes a GeoTIFF of a file: `command IN OUT.tif`.
 pub(super) fn gdal(command: &str, name: &str) -> String {
-    let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-    format!("{command} {} {}", quote(name), quote(&format!("{stem}-new.tif")))
+    // GDAL's own names for files inside others.
+    let (outer, inner) = name.rsplit_once(".zip:").unwrap_or(("", name));
+    let file = match name.split_once(".gz:") {
+        Some((packed, _)) => format!("/vsigzip/{packed}.gz"),
+        None if outer.is_empty() => name.to_owned(),
+        None => format!("/vsizip/{outer}.zip/{inner}"),
+    };
+    let inner = inner.rsplit_once(".gz:").map_or(inner, |(_, inner)| inner);
+    let stem = Path::new(inner).file_stem().unwrap_or_default().to_string_lossy();
+    format!("{command} {} {}", quote(&file), quote(&format!("{stem}-new.tif")))
 }

@@ -1,7 +1,9 @@
 //! What a reader hands out: samples, their place, and how the file stores them.
 
+use glam::DVec2;
+
 use super::error::MapError;
-use super::georeference::Georeference;
+use super::georeference::{Coordinates, Georeference};
 use super::interpretation::Interpretation;
 use super::map::HeightMap;
 use super::marks::{self, Conversion};
@@ -62,6 +64,8 @@ pub struct HeightFile {
     pub storage: Storage,
     /// Columns and rows of the file.
     pub whole: (usize, usize),
+    /// Coordinates (east, north) of its north-west node.
+    pub whole_origin: Option<DVec2>,
     /// Every n-th node of every n-th row of it was read.
     pub every: usize,
     /// The value that marks nodes without data, if the file declares one.
@@ -69,6 +73,9 @@ pub struct HeightFile {
     /// What was assumed, changed or left out, a sentence each.
     pub notes: Vec<String>,
 }
+
+/// Why a map of nothing but marks is refused.
+pub(super) const NO_DATA: &str = "no node has data";
 
 /// What a reader has found, before it is known to be a map.
 pub(super) struct Found {
@@ -81,6 +88,8 @@ pub(super) struct Found {
     pub(super) georeference: Georeference,
     /// The mark that the file declares.
     pub(super) nodata: Option<f64>,
+    /// The rows of the file run from south to north.
+    pub(super) turned_over: bool,
     /// What made heights of the stored samples.
     pub(super) conversion: Conversion,
     pub(super) notes: Vec<String>,
@@ -104,6 +113,11 @@ impl Found {
                 "of {} x {} nodes every {nth} of every {nth} row is read",
                 self.columns, self.rows
             ));
+            let Georeference { origin, cell, .. } = &mut self.georeference;
+            if let (true, Some(origin), Some(cell)) = (self.turned_over, origin, cell) {
+                // Rows were kept from the southern one on.
+                origin.y -= cell.y * ((self.rows - 1) % every) as f64;
+            }
             self.columns = self.columns.div_ceil(every);
             self.rows = self.rows.div_ceil(every);
             self.georeference.cell = self.georeference.cell.map(|cell| cell * every as f64);
@@ -118,7 +132,7 @@ impl Found {
         every: usize,
         asked: &Interpretation,
     ) -> Result<HeightFile, MapError> {
-        let whole = (self.columns, self.rows);
+        let (whole, whole_origin) = ((self.columns, self.rows), self.georeference.origin);
         self.thin(every);
         let mut infinite = 0_usize;
         let mut data = false;
@@ -132,25 +146,29 @@ impl Found {
         if !data {
             return Err(MapError::new(
                 name,
-                "no node has data",
+                NO_DATA,
                 "give a file with heights, or correct its no-data value",
             ));
         }
         let mut notes = self.notes;
         if infinite > 0 {
-            notes.push(format!("{infinite} infinite samples count as nodes without data"));
+            let samples = if infinite == 1 { "sample counts" } else { "samples count" };
+            notes.push(format!("{infinite} infinite {samples} as no data"));
         }
         let map = HeightMap::new(self.columns, self.rows, self.samples);
         let (low, high) = map.range();
         let relief = f64::from(high) - f64::from(low);
         self.georeference.settle((self.columns, self.rows), relief, asked, &mut notes);
         if let Some(reason) = self.georeference.nonsense(self.columns, self.rows) {
-            let ask = "--unit m says that coordinates are lengths";
+            let ask = match self.georeference.coordinates {
+                Coordinates::Degrees => "--unit m says that coordinates are lengths, and ",
+                Coordinates::Lengths { .. } | Coordinates::Unknown => "",
+            };
             let edit = format!("gdal_edit -a_ullr WEST NORTH EAST SOUTH {}", quote(name));
             return Err(MapError::new(
                 name,
                 format!("its georeference cannot be used: {reason}"),
-                format!("{ask}, and {edit} gives other corners"),
+                format!("{ask}{edit} gives other corners"),
             ));
         }
         notes.extend(marks::suspicions(&map, &self.conversion));
@@ -162,6 +180,7 @@ impl Found {
             georeference: self.georeference,
             storage: self.storage,
             whole,
+            whole_origin,
             every,
             nodata: self.nodata,
             notes,

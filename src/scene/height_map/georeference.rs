@@ -192,7 +192,7 @@ impl Georeference {
     }
 
     /// What there is to say of lengths on the ground.
-    fn ground_remark(&self, columns: usize, rows: usize) -> Option<String> {
+    pub(super) fn ground_remark(&self, columns: usize, rows: usize) -> Option<String> {
         let lengths = matches!(self.coordinates, Coordinates::Lengths { .. });
         if let (true, Projection::Distorted(name)) = (lengths, &self.projection) {
             return Some(format!(

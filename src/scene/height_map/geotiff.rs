@@ -57,11 +57,10 @@ pub(super) fn decode(
                 ),
             )
         })?;
-    let last_row = (image.rows - 1) / every * every;
     let grid = grid::read(&tiff, heights, name, &image, &mut notes)?;
     let south_up = grid.is_some_and(|grid| grid.step.y > 0.0);
     if let Some(grid) = grid {
-        grid.place(factor, last_row, &mut georeference);
+        grid.place(factor, image.rows, &mut georeference);
     }
     let nodata = nodata(&tiff, heights, &image, &mut notes).map_err(damaged)?;
     let conversion = conversion(&image, nodata, asked, &metadata, &mut notes);
@@ -85,6 +84,7 @@ pub(super) fn decode(
         turn_over(&mut samples, image.columns.div_ceil(every));
         notes.push("the rows run from south to north: turned over".to_owned());
     }
+    let turned_over = south_up;
     let storage = Storage {
         packed: None,
         format: if tiff.big { "BigTIFF" } else { "GeoTIFF" },
@@ -94,7 +94,7 @@ pub(super) fn decode(
         byte_order: Some(if tiff.big_endian { "big-endian" } else { "little-endian" }),
     };
     let (columns, rows) = (image.columns, image.rows);
-    Found { columns, rows, samples, storage, georeference, nodata, conversion, notes }
+    Found { columns, rows, samples, storage, georeference, nodata, turned_over, conversion, notes }
         .finish(name, every, asked)
 }
 

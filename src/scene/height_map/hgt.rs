@@ -107,8 +107,18 @@ pub(super) fn decode(
     let nodata = Some(f64::from(VOID));
     let every = asked.every(name, columns as u64, rows as u64)?;
     let samples = thinned(samples, columns, every);
-    Found { columns, rows, samples, storage, georeference, nodata, conversion, notes }
-        .finish(name, every, asked)
+    Found {
+        columns,
+        rows,
+        samples,
+        storage,
+        georeference,
+        nodata,
+        turned_over: false,
+        conversion,
+        notes,
+    }
+    .finish(name, every, asked)
 }
 
 /// The byte order in which the samples make sense as 32-bit floats and not as 16-bit integers.

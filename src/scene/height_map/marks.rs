@@ -13,6 +13,8 @@ pub(super) struct Conversion {
     /// A height is `sample * scale + offset`.
     scale: f64,
     offset: f64,
+    /// Stored samples are integers.
+    whole: bool,
 }
 
 /// Beyond this a sample of 32 bits is no height, and near a mark as large it is that mark.
@@ -38,7 +40,7 @@ impl Conversion {
     /// Of samples that are floats.
     pub(super) fn of_floats(declared: Option<f64>, asked: Option<f64>) -> Self {
         let range = |mark: Option<f64>| like(mark.unwrap_or(f64::NAN));
-        Self { marks: [range(declared), range(asked)], scale: 1.0, offset: 0.0 }
+        Self { marks: [range(declared), range(asked)], scale: 1.0, offset: 0.0, whole: false }
     }
 
     /// Of samples that are integers, which are a mark or are not.
@@ -47,7 +49,7 @@ impl Conversion {
             let mark = mark.unwrap_or(f64::NAN);
             mark..=mark
         };
-        Self { marks: [range(declared), range(asked)], scale: 1.0, offset: 0.0 }
+        Self { marks: [range(declared), range(asked)], scale: 1.0, offset: 0.0, whole: true }
     }
 
     pub(super) fn scaled(self, scale: f64, offset: f64) -> Self {
@@ -123,15 +125,17 @@ pub(super) fn suspicions(map: &HeightMap, conversion: &Conversion) -> Vec<String
         } else {
             return None;
         };
+        // As it is stored, so that the option that is named marks it.
         let stored = (extreme - conversion.offset) / conversion.scale;
-        let usual = USUAL.iter().find(|&&mark| (mark - stored).abs() < 1e-3);
-        let stored = usual.copied().unwrap_or(stored);
+        let usual = USUAL.iter().find(|&&mark| f64::from(conversion.height(mark).0) == extreme);
+        let stored =
+            usual.copied().unwrap_or(if conversion.whole { stored.round() } else { stored });
         let have = if nodes == 1 { "1 node has".to_owned() } else { format!("{nodes} nodes have") };
         Some(format!(
             "{have} the {which} height, {}, which is {why} and not declared by the file: where it \
              means no data, add --nodata {}",
             brief(extreme),
-            brief(f64::from(stored as f32))
+            brief(stored)
         ))
     })
     .collect()
@@ -139,7 +143,7 @@ pub(super) fn suspicions(map: &HeightMap, conversion: &Conversion) -> Vec<String
 
 /// A number without the point of a whole one.
 fn brief(value: f64) -> String {
-    shown(value).trim_end_matches(".0").to_owned()
+    if value.fract() == 0.0 && value.abs() < 1e15 { format!("{value:.0}") } else { shown(value) }
 }
 
 #[cfg(test)]
@@ -189,6 +193,7 @@ mod tests {
         assert!(suspicious(&[65535.0, 153.0, 700.0]).contains("--nodata 65535"));
         assert!(suspicious(&[f32::MIN, 153.0, 700.0]).contains("a usual mark"));
         assert!(suspicious(&[-2000.0, 153.0, 700.0]).contains("far off"));
+        assert!(suspicious(&[2_147_483_647.0, 153.0, 700.0]).contains("--nodata 2147483647"));
         let both = suspicious(&[-32768.0, 32767.0, 5.0]);
         assert!(both.contains("lowest") && both.contains("highest"));
         // As stored, where heights are scaled.

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 
 use super::error::{MAX_NODES, MAX_SIDE, MapError};
-use super::found::HeightFile;
-use super::georeference::Georeference;
+use super::found::{HeightFile, NO_DATA};
+use super::georeference::{Coordinates, Georeference};
 use super::interpretation::{Interpretation, Thinning};
 use super::map::HeightMap;
 use super::source;
@@ -28,11 +28,24 @@ pub fn read(paths: &[PathBuf], asked: &Interpretation) -> Result<HeightFile, Map
     }
     // Nodes are left out once, of the whole: tiles thinned alone would not fit.
     let whole = Interpretation { thinning: Thinning::None, ..*asked };
-    let tiles = paths
-        .iter()
-        .map(|path| source::read(path, &whole).map(|file| Tile { path, file }))
-        .collect::<Result<Vec<_>, _>>()?;
-    assemble(tiles, asked)
+    let (mut tiles, mut empty) = (Vec::new(), None);
+    for path in paths {
+        match source::read(path, &whole) {
+            Ok(file) => tiles.push(Tile { path, file }),
+            // A tile of the sea beside one of the coast.
+            Err(error) if error.reason == NO_DATA => empty = Some(error),
+            Err(error) => return Err(error),
+        }
+    }
+    match (tiles.is_empty(), empty) {
+        (true, Some(error)) => Err(error),
+        (_, empty) => {
+            let left_out = empty.map(|_| {
+                format!("{} of the files have no data and add nothing", paths.len() - tiles.len())
+            });
+            assemble(tiles, left_out, asked)
+        }
+    }
 }
 
 struct Tile<'a> {
@@ -46,7 +59,11 @@ struct Place {
     row: usize,
 }
 
-fn assemble(tiles: Vec<Tile<'_>>, asked: &Interpretation) -> Result<HeightFile, MapError> {
+fn assemble(
+    tiles: Vec<Tile<'_>>,
+    left_out: Option<String>,
+    asked: &Interpretation,
+) -> Result<HeightFile, MapError> {
     let name = shown_path(tiles[0].path);
     let (origin, cell) = grid(&tiles[0])?;
     // Places of the tiles in cells from the first one's north-west node.
@@ -54,6 +71,7 @@ fn assemble(tiles: Vec<Tile<'_>>, asked: &Interpretation) -> Result<HeightFile, 
     for tile in &tiles {
         corners.push(offset(&tiles[0], tile, origin, cell)?);
     }
+    around_the_globe(&mut corners, &tiles[0].file.georeference, cell);
     let west = corners.iter().map(|corner| corner[0]).min().unwrap_or(0);
     let north = corners.iter().map(|corner| corner[1]).min().unwrap_or(0);
     let places: Vec<Place> = corners
@@ -99,29 +117,65 @@ fn assemble(tiles: Vec<Tile<'_>>, asked: &Interpretation) -> Result<HeightFile, 
             "{differing} nodes have another height in a later file: that of the first counts"
         ));
     }
-    for note in tiles.iter().flat_map(|tile| &tile.file.notes) {
-        if !notes.contains(note) {
-            notes.push(note.clone());
+    notes.extend(left_out);
+    for Tile { file, .. } in &tiles {
+        // What is said of the cells of one tile is said below of all.
+        let of_cells = file.georeference.ground_remark(file.map.columns(), file.map.rows());
+        for note in &file.notes {
+            if !notes.contains(note) && Some(note) != of_cells.as_ref() {
+                notes.push(note.clone());
+            }
         }
+    }
+    let no_code = tiles.iter().all(|tile| tile.file.georeference.epsg.is_none());
+    if no_code && matches!(tiles[0].file.georeference.coordinates, Coordinates::Lengths { .. }) {
+        notes.push(
+            "the files name no coordinate system by its code: theirs are taken for the same"
+                .to_owned(),
+        );
     }
     let first = tiles.into_iter().next().map(|tile| tile.file);
     let Some(HeightFile { georeference, storage, nodata, .. }) = first else {
         unreachable!("there is a first one");
     };
     let corner = DVec2::new(west as f64, -(north as f64));
+    let georeference = Georeference {
+        origin: Some(origin + corner * cell),
+        cell: Some(cell * every as f64),
+        ..georeference
+    };
+    notes.extend(georeference.ground_remark(kept_columns, kept_rows));
     Ok(HeightFile {
         map: HeightMap::new(kept_columns, kept_rows, samples),
-        georeference: Georeference {
-            origin: Some(origin + corner * cell),
-            cell: Some(cell * every as f64),
-            ..georeference
-        },
+        georeference,
         storage,
         whole: (columns, rows),
+        whole_origin: Some(origin + corner * cell),
         every,
         nodata,
         notes,
     })
+}
+
+/// Puts tiles of degrees side by side across the meridian at 180°, where that is nearer.
+fn around_the_globe(corners: &mut [[i64; 2]], georeference: &Georeference, cell: DVec2) {
+    if georeference.coordinates != Coordinates::Degrees {
+        return;
+    }
+    let turn = (360.0 / cell.x).round() as i64;
+    // West of the first one lies what is more than half a turn to its east.
+    let near = |column: i64| match column {
+        _ if 2 * column > turn => column - turn,
+        _ if 2 * column < -turn => column + turn,
+        _ => column,
+    };
+    let width = |place: &dyn Fn(i64) -> i64| {
+        let places = || corners.iter().map(|corner| place(corner[0]));
+        places().max().zip(places().min()).map_or(0, |(most, least)| most - least)
+    };
+    if width(&near) < width(&|column| column) {
+        corners.iter_mut().for_each(|corner| corner[0] = near(corner[0]));
+    }
 }
 
 /// Origin and cell of a tile.
@@ -155,6 +209,9 @@ fn offset(
     };
     if a.epsg.zip(b.epsg).is_some_and(|(a, b)| a != b) {
         return other("its coordinate system is another one".to_owned());
+    }
+    if a.projection != b.projection || a.ellipsoid != b.ellipsoid {
+        return other("its projection or body is another one".to_owned());
     }
     if a.coordinates != b.coordinates {
         return other("its coordinates count something else".to_owned());

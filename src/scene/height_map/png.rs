@@ -98,6 +98,7 @@ pub(super) fn decode(
         storage,
         georeference,
         nodata: None,
+        turned_over: false,
         conversion,
         notes: Vec::new(),
     }

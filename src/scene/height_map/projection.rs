@@ -75,7 +75,10 @@ pub struct Cylindrical {
     pub scale: f64,
     /// Latitude that is true to scale where it is not the equator, in degrees.
     pub standard_parallel: f64,
-    /// Northing of the equator in metres.
+    /// Latitude at which northings count from `false_northing`, of equirectangular projections, in
+    /// degrees; of others it is the equator.
+    pub origin_latitude: f64,
+    /// Northing there in metres.
     pub false_northing: f64,
 }
 
@@ -85,7 +88,7 @@ impl Cylindrical {
         let a = ellipsoid.semi_major_m;
         let y = northing - self.false_northing;
         if self.method == Method::Equirectangular {
-            return (y / a).to_degrees();
+            return self.origin_latitude + (y / a).to_degrees();
         }
         let e = if self.method == Method::Mercator {
             ellipsoid.eccentricity_squared().sqrt()
@@ -154,7 +157,13 @@ mod tests {
     }
 
     fn cylindrical(method: Method) -> Cylindrical {
-        Cylindrical { method, scale: 1.0, standard_parallel: 0.0, false_northing: 0.0 }
+        Cylindrical {
+            method,
+            scale: 1.0,
+            standard_parallel: 0.0,
+            origin_latitude: 0.0,
+            false_northing: 0.0,
+        }
     }
 
     #[test]
@@ -168,6 +177,15 @@ mod tests {
             let latitude = cylindrical(method).latitude(northing, Ellipsoid::WGS84);
             assert!((latitude - 60.0).abs() < 1e-9, "{method:?}: {latitude}");
         }
+        // The Moon's south, in a system of its own.
+        let moon = Ellipsoid { semi_major_m: 1_737_400.0, flattening: 0.0 };
+        let polar = Cylindrical {
+            standard_parallel: -80.0,
+            origin_latitude: -80.0,
+            ..cylindrical(Method::Equirectangular)
+        };
+        assert_eq!(polar.latitude(0.0, moon), -80.0);
+        assert!((polar.ground(-80.0, moon) - DVec2::ONE).length() < 1e-12);
         // New Zealand's Mercator 41: true at 41° S.
         let south = Cylindrical { standard_parallel: -41.0, ..cylindrical(Method::Mercator) };
         let true_to_scale = south.ground(-41.0, Ellipsoid::WGS84);

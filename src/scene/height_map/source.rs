@@ -49,7 +49,7 @@ fn format(bytes: &[u8], name: &str) -> Option<Format> {
         Some(Format::Png)
     } else if geotiff::MAGIC.iter().any(|magic| begins(magic)) {
         Some(Format::Tiff)
-    } else if begins(b"PK\x03\x04") {
+    } else if begins(b"PK\x03\x04") || begins(b"PK\x07\x08PK\x03\x04") {
         Some(Format::Zip)
     } else if begins(b"\x1f\x8b") {
         Some(Format::Gzip)
@@ -157,7 +157,9 @@ fn unknown(bytes: &[u8], name: &str) -> MapError {
     let convert = format!("convert it: {}", gdal("gdal_translate", name));
     let (reason, remedy) = if bytes.is_empty() {
         ("the file is empty", FORMATS.to_owned())
-    } else if bytes.starts_with(b"\x1f\x8b") || bytes.starts_with(b"PK") {
+    } else if bytes.starts_with(b"PK\x05\x06") {
+        ("this is a zip file without any file in it", FORMATS.to_owned())
+    } else if bytes.starts_with(b"\x1f\x8b") || bytes.starts_with(b"PK\x03\x04") {
         ("this is a packed file in a packed file", format!("unpack it and {FORMATS}"))
     } else if bytes.starts_with(b"\xff\xd8\xff") {
         ("this is a JPEG picture, which holds no heights", FORMATS.to_owned())

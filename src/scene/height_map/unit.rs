@@ -15,8 +15,28 @@ struct Unit {
 const SURVEY_FOOT: f64 = 1200.0 / 3937.0;
 
 const UNITS: [Unit; 13] = [
-    unit("m", "metres", 1.0, &["metre", "metres", "meter", "meters", "mètre", "mètres"]),
-    unit("ft", "feet", 0.3048, &["foot", "feet", "footintl", "internationalfoot", "ftint"]),
+    unit(
+        "m",
+        "metres",
+        1.0,
+        &["metre", "metres", "meter", "meters", "mètre", "mètres", "masl", "mamsl"],
+    ),
+    unit(
+        "ft",
+        "feet",
+        0.3048,
+        &[
+            "foot",
+            "feet",
+            "footintl",
+            "internationalfoot",
+            "internationalfeet",
+            "footinternational",
+            "feetinternational",
+            "ftint",
+            "fti",
+        ],
+    ),
     unit(
         "us-ft",
         "US survey feet",
@@ -61,9 +81,15 @@ const fn unit(
 pub(super) fn metres(name: &str) -> Option<f64> {
     let plain: String =
         name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect();
+    // Capitals tell nautical miles from nanometres.
+    if name.trim() == "NM" {
+        return Some(1852.0);
+    }
     let of =
         |unit: &&Unit| unit.short.replace('-', "") == plain || unit.names.contains(&plain.as_str());
-    UNITS.iter().find(of).map(|unit| unit.metres)
+    let found = UNITS.iter().find(of).map(|unit| unit.metres);
+    // "metre (m)"
+    found.or_else(|| metres(name.trim().strip_suffix(')')?.split_once('(')?.0))
 }
 
 /// The name of a unit for reports: "metres"; units without one are given in metres.
@@ -90,6 +116,11 @@ mod tests {
             ("us-ft", SURVEY_FOOT),
             ("foot", 0.3048),
             ("cm", 0.01),
+            ("metre (m)", 1.0),
+            ("Feet (International)", 0.3048),
+            ("m a.s.l.", 1.0),
+            ("NM", 1852.0),
+            ("nm", 1e-9),
         ] {
             assert_eq!(metres(text), Some(expected), "{text}");
         }

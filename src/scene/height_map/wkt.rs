@@ -32,9 +32,14 @@ pub(super) struct System {
 
 /// Reads the first system in a text, whatever stands before it.
 pub(super) fn read(text: &str) -> Option<System> {
-    let heads = ["PROJCS[", "PROJCRS[", "GEOGCS[", "GEOGCRS[", "COMPD_CS[", "COMPOUNDCRS["];
+    const HEADS: [&str; 8] =
+        ["PROJCS", "PROJCRS", "GEOGCS", "GEOGCRS", "COMPD_CS", "COMPOUNDCRS", "VERTCS", "VERT_CS"];
     let capitals = text.to_ascii_uppercase();
-    let start = heads.iter().filter_map(|head| capitals.find(head)).min()?;
+    // A name of something else may hold the word: a bracket follows.
+    let opens =
+        |&(at, head): &(usize, &str)| capitals[at + head.len()..].trim_start().starts_with('[');
+    let found = HEADS.iter().flat_map(|&head| capitals.match_indices(head)).filter(opens);
+    let start = found.map(|(at, _)| at).min()?;
     let (root, _) = node(&text[start..], 0)?;
     let mut system = System::default();
     system.take(&root);
@@ -100,7 +105,9 @@ impl Node {
     fn unit(&self) -> Option<f64> {
         let is_unit =
             |node: &&Self| matches!(node.keyword.as_str(), "UNIT" | "LENGTHUNIT" | "ANGLEUNIT");
-        let unit = self.nodes.iter().rev().find(is_unit)?;
+        // The newer form may give it with each axis.
+        let axis = || self.child(&["AXIS"])?.nodes.iter().find(is_unit);
+        let unit = self.nodes.iter().rev().find(is_unit).or_else(axis)?;
         unit.numbers.first().copied().filter(|&factor| factor.is_finite() && factor > 0.0)
     }
 
@@ -156,6 +163,7 @@ pub(super) fn ellipsoid(semi_major_m: f64, inverse: f64) -> Option<Ellipsoid> {
 fn projection(node: &Node) -> Projection {
     let name = node.child(&["PROJECTION", "METHOD"]).map_or("", Node::name);
     let plain = name.to_ascii_lowercase().replace(['_', ' '], "");
+    let wide = |a: f64, b: f64| (a - b).abs() > WIDE_PARALLELS;
     let method = match plain.as_str() {
         "mercatorauxiliarysphere" | "popularvisualisationpseudomercator" => {
             Method::SphericalMercator
@@ -165,9 +173,12 @@ fn projection(node: &Node) -> Projection {
         }
         "equidistantcylindrical" | "platecarree" | "equirectangular" => Method::Equirectangular,
         _ => {
-            return match distorted(&plain) {
-                true => Projection::Distorted(name.replace('_', " ")),
-                false => Projection::TrueToScale,
+            let parallels = ["standard_parallel_1", "standard_parallel_2"];
+            let [first, second] = parallels.map(|start| node.parameter(start));
+            let wide = first.zip(second).is_some_and(|(first, second)| wide(first, second));
+            return match is_true_to_scale(&plain) && !wide {
+                true => Projection::TrueToScale,
+                false => Projection::Distorted(name.replace('_', " ")),
             };
         }
     };
@@ -175,32 +186,40 @@ fn projection(node: &Node) -> Projection {
     Projection::Cylindrical(Cylindrical {
         method,
         scale: of("scale_factor").unwrap_or(1.0),
+        origin_latitude: of("latitude_of_origin")
+            .or_else(|| of("latitude_of_center"))
+            .unwrap_or(0.0),
         standard_parallel: of("standard_parallel").or_else(|| of("latitude_of_1st")).unwrap_or(0.0),
         false_northing: of("false_northing").unwrap_or(0.0) * node.unit().unwrap_or(1.0),
     })
 }
 
-/// Projections whose lengths may be off by more than a few per mille, by parts of their names.
-fn distorted(plain: &str) -> bool {
-    const NAMES: [&str; 16] = [
-        "albers",
-        "azimuthal",
-        "polarstereographic",
-        "stereographicnorthpole",
-        "stereographicsouthpole",
-        "sinusoidal",
-        "polyconic",
-        "bonne",
-        "equalearth",
-        "cylindricalequalarea",
-        "behrmann",
-        "mollweide",
-        "robinson",
-        "miller",
-        "eckert",
-        "equidistantconic",
+/// Conics whose standard parallels lie farther apart, degrees, are off between them.
+pub(super) const WIDE_PARALLELS: f64 = 10.0;
+
+/// Projections whose lengths are true within a few per mille where they are used, by parts of their
+/// names.
+fn is_true_to_scale(plain: &str) -> bool {
+    const NAMES: [&str; 17] = [
+        "transversemercator",
+        "gausskruger",
+        "lambertconformalconic",
+        "lambertconicconformal",
+        "obliquemercator",
+        "hotine",
+        "swissoblique",
+        "rectifiedskew",
+        "obliquestereographic",
+        "doublestereographic",
+        "krovak",
+        "cassini",
+        "newzealandmapgrid",
+        "laborde",
+        "tunisiamining",
+        "local",
+        "guam",
     ];
-    NAMES.iter().any(|name| plain.contains(name))
+    plain.is_empty() || NAMES.iter().any(|name| plain.contains(name))
 }
 
 #[cfg(test)]

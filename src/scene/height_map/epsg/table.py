@@ -88,9 +88,6 @@ projected = {
 rust("PROJECTED_UNITS", "(u16, u16, u16)",
      "Projected systems that do not count metres: first and last code, code of the unit.",
      [str(tuple(run)) for run in runs(projected, lambda c: None if projected[c][0] == 9001 else projected[c][0])])
-rust("DISTORTED", "(u16, u16, &str)",
-     "Projected systems whose lengths are not lengths on the ground: first and last code, projection.",
-     [f'({a}, {b}, "{m}")' for a, b, m in runs(projected, lambda c: DISTORTED.get(projected[c][1]))])
 
 
 def parameter(conversion, code):
@@ -100,6 +97,18 @@ def parameter(conversion, code):
            where auth_name = 'EPSG' and code = ?""", (conversion,)).fetchone()
     return {int(c): v for c, v in zip(row[::2], row[1::2]) if c is not None}.get(code)
 
+
+def distorted(code):
+    """The name of a projection whose lengths are off; conics are between parallels far apart."""
+    unit, method, conversion = projected[code]
+    if method == 9802 and abs(parameter(conversion, 8823) - parameter(conversion, 8824)) > 10:
+        return "Lambert conic of wide parallels"
+    return DISTORTED.get(method)
+
+
+rust("DISTORTED", "(u16, u16, &str)",
+     "Projected systems whose lengths are not lengths on the ground: first and last code, projection.",
+     [f'({a}, {b}, "{m}")' for a, b, m in runs(projected, distorted)])
 
 cylindrical = []
 for code, (unit, method, conversion) in sorted(projected.items()):

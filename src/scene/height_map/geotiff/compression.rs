@@ -56,9 +56,11 @@ impl Compression {
             Self::Lzw => 4096,
             Self::Deflate => DEFLATE_RATIO,
             Self::PackBits => 64,
-            // A block of 3 bytes and one of a repeated byte stands for 128 KiB; a header of some
-            // 70 bytes for a whole block of one height.
-            Self::Zstandard | Self::Lerc(_) => 1 << 17,
+            // A block of 3 bytes and one of a repeated byte stands for 128 KiB.
+            Self::Zstandard => 1 << 17,
+            // A header stands for a whole block of one height; what it claims is compared with
+            // the block before it is decoded.
+            Self::Lerc(_) => u64::MAX,
         }
     }
 

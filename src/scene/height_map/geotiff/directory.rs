@@ -6,6 +6,12 @@ use std::collections::{BTreeMap, HashSet};
 /// Directories are followed so far; a file of more pages is no height map.
 const MAX_DIRECTORIES: usize = 4096;
 
+/// Entries of all directories: some fifteen each, a hundred in files full of metadata.
+const MAX_ENTRIES: usize = 1 << 18;
+
+/// Numbers of a list that describes the georeference: a file of more is no height map.
+const MAX_NUMBERS: u64 = 1 << 16;
+
 /// Tags that are read, by their numbers in TIFF 6.0, GeoTIFF 1.1 and GDAL's documentation.
 pub mod tag {
     pub const SUBFILE_TYPE: u16 = 254;
@@ -14,6 +20,7 @@ pub mod tag {
     pub const BITS_PER_SAMPLE: u16 = 258;
     pub const COMPRESSION: u16 = 259;
     pub const PHOTOMETRIC: u16 = 262;
+    pub const FILL_ORDER: u16 = 266;
     pub const STRIP_OFFSETS: u16 = 273;
     pub const SAMPLES_PER_PIXEL: u16 = 277;
     pub const ROWS_PER_STRIP: u16 = 278;
@@ -105,6 +112,7 @@ impl<'a> Tiff<'a> {
         let mut next = self.unsigned_at(at, width).ok_or("it ends within its header")?;
         let mut seen = HashSet::new();
         let mut directories = Vec::new();
+        let mut entries = 0;
         while next != 0 {
             if !seen.insert(next) {
                 return Err("its directories run in a circle".to_owned());
@@ -113,6 +121,10 @@ impl<'a> Tiff<'a> {
                 return Err(format!("it has more than {MAX_DIRECTORIES} images"));
             }
             let (directory, after) = self.directory(next)?;
+            entries += directory.entries.len();
+            if entries > MAX_ENTRIES {
+                return Err(format!("its directories have more than {MAX_ENTRIES} entries"));
+            }
             directories.push(directory);
             next = after;
         }
@@ -203,6 +215,9 @@ impl<'a> Tiff<'a> {
         tag: u16,
     ) -> Result<Option<Vec<f64>>, Reason> {
         let Some((entry, width)) = self.entry(directory, tag)? else { return Ok(None) };
+        if entry.count > MAX_NUMBERS {
+            return Err(format!("tag {tag} holds {} numbers", entry.count));
+        }
         let number = |at, width| self.unsigned_at(at, width).ok_or_else(outside);
         let value = |index| -> Result<f64, Reason> {
             let at = entry.at + index * width;

@@ -20,16 +20,16 @@ pub(super) struct Grid {
 const STRAIGHT: f64 = 1e-6;
 
 impl Grid {
-    /// Writes down where the nodes lie, in coordinates of which one of the file is `factor`; the
-    /// last row that is kept is `last_row`.
-    pub(super) fn place(self, factor: f64, last_row: usize, georeference: &mut Georeference) {
+    /// Writes down where the nodes of so many rows lie, in coordinates of which one of the file is
+    /// `factor`.
+    pub(super) fn place(self, factor: f64, rows: usize, georeference: &mut Georeference) {
         let (mut tie, step) = (self.tie * factor, self.step * factor);
         // Nodes are the centres of samples.
         if georeference.pixel_is == Some(PixelIs::Area) {
             tie += step / 2.0;
         }
         if step.y > 0.0 {
-            tie.y += step.y * last_row as f64;
+            tie.y += step.y * (rows as f64 - 1.0);
         }
         georeference.origin = Some(tie);
         georeference.cell = Some(step.abs());
@@ -46,7 +46,11 @@ pub(super) fn read(
 ) -> Result<Option<Grid>, MapError> {
     let damaged = |reason: String| unusable(name, &reason);
     let list = |tag| tiff.doubles(directory, tag).map_err(damaged);
-    if let Some(matrix) = list(tag::TRANSFORMATION)? {
+    let (scale, ties) = (list(tag::PIXEL_SCALE)?, list(tag::TIE_POINTS)?);
+    // A scale with its tie point counts more than a matrix beside them, as other readers have it.
+    if (scale.is_none() || ties.is_none())
+        && let Some(matrix) = list(tag::TRANSFORMATION)?
+    {
         let [a, b, _, d, e, f, _, h, ..] = matrix.as_slice() else {
             return Err(damaged("its transformation has fewer than 8 numbers".to_owned()));
         };
@@ -60,7 +64,6 @@ pub(super) fn read(
         }
         return Ok(Some(Grid { tie: DVec2::new(*d, *h), step: DVec2::new(*a, *f) }));
     }
-    let (scale, ties) = (list(tag::PIXEL_SCALE)?, list(tag::TIE_POINTS)?);
     let (Some(scale), Some(ties)) = (&scale, &ties) else {
         if ties.as_ref().is_some_and(|ties| ties.len() > 6) {
             notes.push(format!(

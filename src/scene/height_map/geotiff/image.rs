@@ -108,7 +108,17 @@ impl Image {
                 );
             }
         };
-        let predictor = one(tag::PREDICTOR, 1)?;
+        if one(tag::FILL_ORDER, 1)? != 1 {
+            return unfit(
+                "its bits are stored from the lowest to the highest (fill order 2)".to_owned(),
+                format!("write them the usual way: {}", gdal("gdal_translate", name)),
+            );
+        }
+        // Predictors belong to methods that gain by them; elsewhere the tag means nothing.
+        let predictor = match compression {
+            Compression::None | Compression::PackBits | Compression::Lerc(_) => 1,
+            _ => one(tag::PREDICTOR, 1)?,
+        };
         if !matches!(predictor, 1..=3) || (predictor == 3 && !sample.is_float()) {
             return Err(damaged(format!(
                 "predictor {predictor} does not fit {} samples",

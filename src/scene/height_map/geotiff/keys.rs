@@ -22,7 +22,10 @@ pub(super) mod key {
     pub const LINEAR_UNITS: u16 = 3076;
     pub const LINEAR_UNIT_SIZE: u16 = 3077;
     pub const STANDARD_PARALLEL: u16 = 3078;
+    pub const SECOND_PARALLEL: u16 = 3079;
+    pub const ORIGIN_LATITUDE: u16 = 3081;
     pub const FALSE_NORTHING: u16 = 3083;
+    pub const CENTER_LATITUDE: u16 = 3089;
     pub const SCALE_AT_ORIGIN: u16 = 3092;
     pub const VERTICAL_CRS: u16 = 4096;
     pub const VERTICAL_CITATION: u16 = 4097;
@@ -45,7 +48,8 @@ pub(super) struct Keys(BTreeMap<u16, Value>);
 impl Keys {
     pub(super) fn read(tiff: &Tiff<'_>, directory: &Directory) -> Result<Self, String> {
         let mut keys = BTreeMap::new();
-        let list = tiff.unsigned(directory, tag::GEO_KEYS)?.unwrap_or_default();
+        let length = tiff.count(directory, tag::GEO_KEYS).min(u64::from(u16::MAX));
+        let list = tiff.first_unsigned(directory, tag::GEO_KEYS, length)?.unwrap_or_default();
         let doubles = tiff.doubles(directory, tag::GEO_DOUBLES)?.unwrap_or_default();
         let texts = tiff.texts(directory, tag::GEO_TEXTS)?.unwrap_or_default();
         // A header of four numbers, whose last is the number of keys, then four numbers a key.

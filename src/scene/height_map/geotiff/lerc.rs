@@ -13,6 +13,8 @@ pub(super) struct Rows {
     data: SampleData,
     /// Whether a pixel has data; `None` where all have.
     valid: Option<Vec<bool>>,
+    /// Samples are stored with their bytes turned round: in big-endian files.
+    swapped: bool,
     columns: usize,
     next: usize,
 }
@@ -23,6 +25,7 @@ impl Rows {
         packed: &[u8],
         on_top: Packed,
         (columns, rows): (usize, usize),
+        swapped: bool,
     ) -> Result<Self, String> {
         // A sample takes 8 bytes at most, and what LERC makes of samples is hardly larger.
         let limit = 16 * (columns * rows) as u64 + 4096;
@@ -54,7 +57,7 @@ impl Rows {
             let mask = image.mask();
             (0..width * height).map(|at| mask.is_none_or(|mask| mask.is_valid(at))).collect()
         });
-        Ok(Self { data: image.data, valid, columns, next: 0 })
+        Ok(Self { data: image.data, valid, swapped, columns, next: 0 })
     }
 
     /// Hands out the samples of the next row, NaN where they are masked.
@@ -68,24 +71,27 @@ impl Rows {
             at += 1;
             put(if is_valid { value } else { f64::NAN });
         };
+        let swapped = self.swapped;
         macro_rules! each {
-            ($samples:expr) => {
-                $samples
-                    .get(range)
-                    .ok_or("it has too few rows")?
-                    .iter()
-                    .for_each(|&value| sample(f64::from(value)))
+            ($samples:expr, $type:ty) => {
+                for &value in $samples.get(range).ok_or("it has too few rows")? {
+                    let mut bytes = value.to_ne_bytes();
+                    if swapped {
+                        bytes.reverse();
+                    }
+                    sample(f64::from(<$type>::from_ne_bytes(bytes)));
+                }
             };
         }
         match &self.data {
-            SampleData::I8(samples) => each!(samples),
-            SampleData::U8(samples) => each!(samples),
-            SampleData::I16(samples) => each!(samples),
-            SampleData::U16(samples) => each!(samples),
-            SampleData::I32(samples) => each!(samples),
-            SampleData::U32(samples) => each!(samples),
-            SampleData::F32(samples) => each!(samples),
-            SampleData::F64(samples) => each!(samples),
+            SampleData::I8(samples) => each!(samples, i8),
+            SampleData::U8(samples) => each!(samples, u8),
+            SampleData::I16(samples) => each!(samples, i16),
+            SampleData::U16(samples) => each!(samples, u16),
+            SampleData::I32(samples) => each!(samples, i32),
+            SampleData::U32(samples) => each!(samples, u32),
+            SampleData::F32(samples) => each!(samples, f32),
+            SampleData::F64(samples) => each!(samples, f64),
         }
         Ok(())
     }

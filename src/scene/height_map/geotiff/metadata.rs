@@ -24,11 +24,11 @@ fn parse(text: &str) -> Metadata {
     for item in text.split("<Item").skip(1) {
         let Some((attributes, rest)) = item.split_once('>') else { continue };
         let value = rest.split('<').next().unwrap_or_default().trim();
-        // Items of the whole file have no sample; those of other bands say nothing of this one.
-        if attribute(attributes, "sample").is_some_and(|band| band != "0") {
+        // Items of the whole file and of other bands say nothing of this one.
+        if attribute(attributes, "sample") != Some("0") {
             continue;
         }
-        let number = || value.parse::<f64>().ok().filter(|number| number.is_finite());
+        let number = || number_at_the_head(value);
         match attribute(attributes, "role").unwrap_or_default() {
             "scale" => found.scale = number(),
             "offset" => found.offset = number(),
@@ -37,6 +37,15 @@ fn parse(text: &str) -> Metadata {
         }
     }
     found
+}
+
+/// The number that a text begins with, as C programs read it.
+fn number_at_the_head(text: &str) -> Option<f64> {
+    let end = text.find(|c: char| !c.is_ascii_digit() && !"+-.eE".contains(c));
+    let head = &text[..end.unwrap_or(text.len())];
+    // "1e" of "1em" is 1.
+    let mut heads = (1..=head.len()).rev().map(|length| &head[..length]);
+    heads.find_map(|head| head.parse::<f64>().ok()).filter(|number| number.is_finite())
 }
 
 /// The value of an attribute in either kind of quotes.
@@ -57,9 +66,10 @@ mod tests {
     #[test]
     fn items_of_the_first_band() {
         let text = "<GDALMetadata>\n  <Item name=\"AREA\">1</Item>\n  <Item name=\"OFFSET\" sample=\"0\" \
-                    role=\"offset\">-100</Item>\n  <Item name='SCALE' sample='0' role='scale'>0.1</Item>\n\
+                    role=\"offset\">-100</Item>\n  <Item name='SCALE' sample='0' role='scale'>0.1 m</Item>\n\
                     <Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">US survey foot</Item>\n\
-                    <Item name=\"SCALE\" sample=\"1\" role=\"scale\">7</Item></GDALMetadata>";
+                    <Item name=\"SCALE\" sample=\"1\" role=\"scale\">7</Item>\
+                    <Item name=\"SCALE\" role=\"scale\">8</Item></GDALMetadata>";
         assert_eq!(
             parse(text),
             Metadata {

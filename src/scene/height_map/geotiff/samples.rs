@@ -137,7 +137,9 @@ impl<'a> Decoder<'a> {
         let packed = bytes.get(range).ok_or("a strip or tile lies outside the file")?;
         let broken = |error: String| format!("strip or tile {index} cannot be unpacked: {error}");
         if let Compression::Lerc(on_top) = image.compression {
-            return lerc::Rows::decode(packed, on_top, image.block).map(Self::Lerc).map_err(broken);
+            return lerc::Rows::decode(packed, on_top, image.block, image.big_endian)
+                .map(Self::Lerc)
+                .map_err(broken);
         }
         Ok(Self::Stream(Stream {
             image,

@@ -123,7 +123,7 @@ impl Described<'_> {
             Some(code) => epsg::metres(code).or_else(|| keys.size(key::LINEAR_UNIT_SIZE)),
             None => keys
                 .size(key::LINEAR_UNIT_SIZE)
-                .or_else(|| keys.epsg(key::PROJECTED_CRS).map(epsg::projected_unit_m))
+                .or_else(|| keys.epsg(key::PROJECTED_CRS).and_then(epsg::projected_unit_m))
                 .or_else(by_text),
         }
     }
@@ -166,6 +166,9 @@ impl Described<'_> {
         let method = match keys.code(key::METHOD) {
             Some(7) => Method::Mercator,
             Some(17) => Method::Equirectangular,
+            Some(8) if self.has_wide_parallels() => {
+                return Projection::Distorted("Lambert conic of wide parallels".to_owned());
+            }
             Some(other) => {
                 let name = match other {
                     10 => "Lambert azimuthal equal-area",
@@ -187,13 +190,29 @@ impl Described<'_> {
             }
             None => return Projection::TrueToScale,
         };
+        let unit = self.angle_unit_deg().unwrap_or(1.0);
+        let degrees = |key| keys.number(key).map(|angle| angle * unit);
+        // Mercator's latitude of origin is that of true scale, as other readers have it.
+        let latitude = degrees(key::ORIGIN_LATITUDE).or_else(|| degrees(key::CENTER_LATITUDE));
         Projection::Cylindrical(Cylindrical {
             method,
             scale: keys.size(key::SCALE_AT_ORIGIN).unwrap_or(1.0),
-            standard_parallel: keys.number(key::STANDARD_PARALLEL).unwrap_or(0.0),
+            standard_parallel: degrees(key::STANDARD_PARALLEL)
+                .or_else(|| latitude.filter(|_| method == Method::Mercator))
+                .unwrap_or(0.0),
+            origin_latitude: latitude.unwrap_or(0.0),
             false_northing: keys.number(key::FALSE_NORTHING).unwrap_or(0.0)
                 * self.length_unit_m().unwrap_or(1.0),
         })
+    }
+
+    /// Whether the standard parallels of a conic lie far apart.
+    fn has_wide_parallels(&self) -> bool {
+        let keys = self.keys;
+        let unit = self.angle_unit_deg().unwrap_or(1.0);
+        let first = keys.number(key::STANDARD_PARALLEL);
+        let apart = first.zip(keys.number(key::SECOND_PARALLEL)).map(|(a, b)| (a - b).abs() * unit);
+        apart.is_some_and(|apart| apart > wkt::WIDE_PARALLELS)
     }
 
     /// Metres of the unit of heights: of the band, of the vertical system, or as text.
@@ -221,7 +240,8 @@ impl Described<'_> {
             .or_else(|| keys.text(key::VERTICAL_CITATION).and_then(unit_in_brackets))
             .or_else(|| keys.text(key::CITATION).and_then(unit_of_heights))
             .or_else(|| {
-                let solid = keys.epsg(key::GEODETIC_CRS).is_some_and(epsg::has_heights);
+                let codes = [keys.epsg(key::GEODETIC_CRS), code];
+                let solid = codes.into_iter().flatten().any(epsg::has_heights);
                 solid.then_some(1.0)
             });
         let by_band = metadata.unit.as_deref().and_then(unit::metres);
@@ -242,7 +262,7 @@ impl Described<'_> {
 /// The unit of the plan in a citation: `LUnits = foot` of ERDAS and GDAL, or in brackets at the
 /// end of the name, as the EPSG register has it.
 fn unit_of_plan(citation: &str) -> Option<f64> {
-    let units = citation.split('|').find_map(|part| {
+    let units = citation.split(['|', '\n']).find_map(|part| {
         let (name, value) = part.split_once('=')?;
         matches!(name.trim(), "LUnits" | "Units").then(|| value.trim())
     });
@@ -269,6 +289,7 @@ mod tests {
         let foot = unit::metres("us-ft");
         assert_eq!(unit_of_plan("NAD83 / California zone 3 (ftUS)"), foot);
         assert_eq!(unit_of_plan("PCS Name = x|LUnits = U.S. survey foot"), foot);
+        assert_eq!(unit_of_plan("IMAGINE GeoTIFF Support\nUnits = US Survey Feet\nx"), foot);
         assert_eq!(unit_of_plan("A (m) + NAVD88 height (ftUS)"), Some(1.0));
         assert_eq!(unit_of_heights("A (m) + NAVD88 height (ftUS)"), foot);
         assert_eq!(unit_of_heights("NAVD88 height (ftUS)"), None);

@@ -2,6 +2,7 @@
 
 mod archive;
 mod ascii;
+mod encoding;
 mod epsg;
 mod error;
 pub(super) mod file;
@@ -20,8 +21,9 @@ pub mod source;
 pub mod unit;
 mod wkt;
 
+pub use encoding::Encoding;
 pub use error::{MAX_NODES, MAX_SIDE, MapError};
-pub use found::{Encoding, HeightFile, Storage};
+pub use found::{HeightFile, Storage};
 pub use georeference::{Coordinates, Georeference};
 pub use interpretation::{CoordinateUnit, Interpretation, Thinning, length};
 pub use map::HeightMap;

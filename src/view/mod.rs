@@ -29,6 +29,7 @@ pub mod measure;
 pub mod order;
 pub mod pace;
 pub mod pane;
+mod end;
 mod passes;
 mod preview;
 mod renderer;

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::end::End;
 use super::desk::{Desk, Wake};
 use super::order::Order;
 use super::pane::Source;
-use super::renderer::{End, Job, Renderer};
+use super::renderer::{Job, Renderer};
 use super::shelf::{Shelf, Task};
 use super::snapshot::{FrameRate, Image, LineState, Timing};
 use crate::engine::{Engine, Machine};

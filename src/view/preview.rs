@@ -2,8 +2,9 @@
 
 use std::time::Duration;
 
+use super::end::End;
 use super::pane::Source;
-use super::renderer::{End, Job, Renderer};
+use super::renderer::{Job, Renderer};
 use super::shelf::{Shelf, Task};
 use crate::engine::{Band, Engine, Machine};
 use crate::plan::{Plan, WordClass};

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::end::End;
 use super::desk::{Desk, Wake};
 use super::order::Order;
 use super::pane::{Pane, Source};
@@ -12,7 +13,6 @@ use super::shelf::{Shelf, Task};
 use super::snapshot::{Facts, Image, LineState, Snapshot};
 use crate::engine::{Band, Engine, Machine, Memories};
 use crate::plan::PlanError;
-use crate::setup::SetupError;
 use crate::study::explain::text::text;
 
 /// The state of the render worker.
@@ -25,20 +25,6 @@ pub(super) struct Renderer {
     /// When the latest snapshot was taken.
     pub taken: Instant,
     version: u64,
-}
-
-/// Why drawing ends before its time.
-pub(super) enum End {
-    /// A newer order has come, or the end.
-    Superseded,
-    /// The scene cannot be drawn.
-    Refused(SetupError),
-}
-
-impl From<SetupError> for End {
-    fn from(error: SetupError) -> Self {
-        Self::Refused(error)
-    }
 }
 
 impl From<PlanError> for End {

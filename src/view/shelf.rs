@@ -1,9 +1,9 @@
 //! What has been drawn of a view, kept until the view changes: another picture of it then shows at
 //! once, and the scan goes on where it was.
 
+use super::end::End;
 use super::order::Order;
 use super::pane::Source;
-use super::renderer::End;
 use crate::engine::{Band, Engine, Machine, Scan, Stop, Wanted};
 use crate::setup::SetupError;
 use crate::study::error::Sample;

@@ -8,33 +8,6 @@ use super::interpretation::Interpretation;
 use super::map::HeightMap;
 use super::marks::{self, Conversion};
 use crate::scene::shown::{ordinal, quote, shown};
-use crate::scene::words::Words;
-
-/// How the samples of a file stand for heights.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Encoding {
-    /// A sample is a height.
-    #[default]
-    Stored,
-    /// Colour PNG: `-10000 + (R·65536 + G·256 + B)/10` metres.
-    TerrainRgb,
-    /// Colour PNG: `R·256 + G + B/256 - 32768` metres.
-    Terrarium,
-}
-
-impl Encoding {
-    /// Names in scene files and on the command line.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("stored", Self::Stored),
-        ("terrain-rgb", Self::TerrainRgb),
-        ("terrarium", Self::Terrarium),
-    ];
-
-    /// Name in scene files.
-    pub fn name(self) -> &'static str {
-        self.word()
-    }
-}
 
 /// How a file stores its samples.
 #[derive(Clone, Debug, PartialEq)]

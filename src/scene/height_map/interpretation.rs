@@ -1,7 +1,7 @@
 //! What a user says of a height file beside what the file says itself.
 
+use super::encoding::Encoding;
 use super::error::{MAX_NODES, MAX_SIDE, MapError, gdal};
-use super::found::Encoding;
 use super::memory;
 use super::unit;
 use crate::scene::shown::ordinal;

@@ -6,8 +6,9 @@ use image::codecs::png::PngDecoder;
 use image::error::ImageError;
 use image::{ColorType, ImageDecoder, Limits};
 
+use super::encoding::Encoding;
 use super::error::{DEFLATE_RATIO, MAX_SIDE, MapError, check_size, gdal, too_large};
-use super::found::{Encoding, Found, HeightFile, Storage, thinned};
+use super::found::{Found, HeightFile, Storage, thinned};
 use super::georeference::Georeference;
 use super::interpretation::Interpretation;
 use super::marks::Conversion;

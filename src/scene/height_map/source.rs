@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use super::encoding::Encoding;
 use super::error::{MAX_NODES, MapError, gdal};
 use super::file::{file_reason, read_limited};
-use super::found::{Encoding, HeightFile};
+use super::found::HeightFile;
 use super::interpretation::Interpretation;
 use super::map::HeightMap;
 use super::{archive, ascii, geotiff, hgt, png};

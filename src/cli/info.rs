@@ -74,6 +74,8 @@ struct Described {
     height_unit_m: Option<f64>,
     /// A number, `"nan"`, or null where none is declared.
     nodata: Value,
+    /// Nodes that range and voids are told of: all, but in files that are thinned.
+    nodes_read: usize,
     nodata_nodes: usize,
     nodata_share: f64,
     notes: Vec<String>,
@@ -183,7 +185,8 @@ fn describe(path: &Path, reading: &Reading) -> Result<Described, Stop> {
             None => Value::Null,
         },
         nodata_nodes: voids,
-        nodata_share: voids as f64 / (columns * rows) as f64,
+        nodes_read: map.samples().len(),
+        nodata_share: voids as f64 / map.samples().len() as f64,
         notes,
         render: render.join(" "),
     })
@@ -236,9 +239,10 @@ fn text(file: &Described) -> String {
     line(
         "no data",
         format!(
-            "{declared}; {} of {} nodes ({:.2} %)",
+            "{declared}; {} of {} nodes{} ({:.2} %)",
             file.nodata_nodes,
-            file.columns * file.rows,
+            file.nodes_read,
+            if file.nodes_read < file.columns * file.rows { " that were read" } else { "" },
             100.0 * file.nodata_share
         ),
     );

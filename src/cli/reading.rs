@@ -29,11 +29,8 @@ pub struct Reading {
 }
 
 fn encoding(text: &str) -> Result<Encoding, String> {
-    let known = Encoding::NAMES.iter().find(|(name, _)| *name == text);
-    known.map(|(_, encoding)| *encoding).ok_or_else(|| {
-        let names = Encoding::NAMES.map(|(name, _)| name);
-        format!("give one of {}", names.join(", "))
-    })
+    let names = || Encoding::NAMES.map(|(name, _)| name).join(", ");
+    Encoding::named(text).ok_or_else(|| format!("give one of {}", names()))
 }
 
 impl Reading {

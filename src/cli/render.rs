@@ -14,7 +14,8 @@ use super::scene_out::SceneOut;
 use super::{Stop, report};
 use errors::Extent;
 use crate::engine::{Band, Engine, Machine, Wanted};
-use crate::sink::picture::{ErrorPart, ErrorView, Picture};
+use crate::sink::picture::Picture;
+use crate::sink::picture::errors::{ErrorPart, ErrorView};
 use crate::sink::{npz, png};
 use crate::study::error::{PixelError, Sample};
 

@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::Stop;
+pub use crate::study::figures::digits;
 
 /// Prints to stdout. A reader that has gone away (a pager, `head`) is no error.
 pub fn print(text: &str) {
@@ -27,21 +28,6 @@ pub fn json(command: &str, scene: Option<&str>, fields: &impl Serialize) -> Resu
     }
     print(&serde_json::to_string(&object)?);
     Ok(())
-}
-
-/// A number with four significant digits.
-pub fn digits(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 {
-        "0".into()
-    } else if size >= 1000.0 {
-        format!("{value:.0}")
-    } else if size >= 1e-3 {
-        let leading = size.log10().floor() as i32;
-        format!("{value:.*}", (3 - leading) as usize)
-    } else {
-        format!("{value:.2e}")
-    }
 }
 
 /// Runs work; where it takes more than a second, a terminal shows that it goes on.

@@ -104,8 +104,7 @@ impl Planned {
 impl SceneArgs {
     /// Reads, overrides and plans the scene.
     pub fn load(&self) -> Result<Planned, Stop> {
-        let scaled = |set: &String| set.contains("height.scale") || set.contains("height=");
-        if self.exaggeration.is_some() && self.set.iter().any(scaled) {
+        if self.exaggeration.is_some() && framing::is_set(&self.set, "surface.height.scale") {
             return Err(Stop::BadInput(
                 "--exaggeration: it chooses surface.height.scale, which --set gives as well; leave \
                  one of the two out"

@@ -9,6 +9,7 @@
 pub mod camera;
 mod draw;
 pub mod extrema;
+pub mod ground;
 pub mod height_field;
 pub mod kernel;
 pub mod outcome;

@@ -22,6 +22,8 @@ use super::maps::{MapSource, ReadMap};
 use super::shown::shown_path;
 use super::tables::Scene;
 use super::{set, write};
+#[cfg(feature = "cli")]
+pub(crate) use reason::is_set;
 pub use view::PITCH;
 use view::View;
 
@@ -207,11 +209,10 @@ fn interpretation(sets: &[String], wishes: &Wishes) -> Interpretation {
             is_key.then(|| value.trim_matches(['"', '\'']))
         })
     };
-    let named = |name: &str| Encoding::NAMES.iter().find(|(other, _)| *other == name);
     let nodes = wishes.memory.or_else(available).map_or(MAX_NODES, nodes_in);
     let thin = asked("thin").and_then(|value| value.parse().ok()).filter(|&every| every > 0);
     Interpretation {
-        encoding: asked("encoding").and_then(named).map_or(Encoding::Stored, |found| found.1),
+        encoding: asked("encoding").and_then(Encoding::named).unwrap_or_default(),
         nodata: asked("nodata_value").and_then(|value| value.parse().ok()),
         unit: wishes.unit,
         height_unit_m: wishes.height_unit_m,

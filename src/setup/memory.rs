@@ -1,6 +1,6 @@
 //! What is loaded once per map: heights, pyramid, kernel ROM, reciprocal-square-root table.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -11,7 +11,7 @@ use crate::unit::height_memory::{Edge, HeightMemory};
 use crate::unit::interpolator::Form;
 use crate::unit::kernel_rom::KernelRom;
 use crate::unit::pyramid::Pyramid;
-use crate::word::{Load, Open, Register, Table, Word, World};
+use crate::word::{Load, Open, Register, Table, World};
 
 /// Entries per unit of the reciprocal-square-root table, as a power of two.
 const RSQRT_LOG2: u32 = 10;
@@ -98,8 +98,6 @@ fn heights<W: Open>(
     walk: &TerrainPlan,
 ) -> Result<HeightMemory<W::Height>, super::SetupError> {
     let format = world.height(Register::Node);
-    // A collection of results would hold all nodes twice.
-    let refused = OnceLock::new();
     let nodes = terrain
         .map
         .samples()
@@ -108,15 +106,9 @@ fn heights<W: Open>(
             // Nodes without data are as low as the lowest, so that no bound is raised by them.
             let height =
                 if sample.is_nan() { 0.0 } else { walk.scale.to_register(terrain.height(sample)) };
-            load(height, Register::Node, format).unwrap_or_else(|error| {
-                refused.get_or_init(|| error);
-                W::Height::zero(format)
-            })
+            load(height, Register::Node, format)
         })
-        .collect();
-    if let Some(error) = refused.into_inner() {
-        return Err(error);
-    }
+        .collect::<Result<Vec<_>, _>>()?;
     let (columns, rows) = (terrain.map.columns(), terrain.map.rows());
     let edge = match terrain.outside {
         Outside::Sky => Edge::Ends,

@@ -1,8 +1,10 @@
 //! What registers hold, but so coarsely that a picture should not be trusted unseen.
 
 use crate::engine::{FixedWorld, Machine};
+use crate::oracle::ground;
 use crate::plan::{Plan, SurfacePlan, TerrainPlan};
 use crate::scene::{Scene, Terrain};
+use crate::study::figures::digits;
 use crate::word::Register;
 
 /// Last bits of height that a level of colour should have: with fewer, the rounding of a height shows.
@@ -25,7 +27,7 @@ pub fn coarse_relief(scene: &Scene, plan: &Plan, world: &FixedWorld) -> Vec<Stri
             format!(
                 "heights span {} last bits of register {register}, the ramp {levels} levels: colours are up to \
                  {:.0} levels off; enlarge surface.height.scale",
-                figure(bits),
+                digits(bits),
                 (levels / bits).min(levels).ceil()
             )
         })
@@ -46,10 +48,10 @@ impl Machine<'_> {
     /// A ground seen from `up` above it is `up` away at the nearest, where a height that is off by an
     /// error looks like one that is `error / (up · angle)` pixels aside.
     fn eye_near_ground(&self) -> Option<String> {
-        let (scene, plan, oracle) = (self.scene(), self.plan(), self.oracle());
+        let (scene, plan) = (self.scene(), self.plan());
         let walk = plan.surfaces.iter().find_map(SurfacePlan::terrain)?;
-        let eye = oracle.eye();
-        let up = eye.y - oracle.surface_height(eye.x, eye.z)?;
+        let eye = plan.geometry.eye;
+        let up = eye.y - ground::height(scene, eye)?;
         let (register, ulp) = coarsest(&self.world(), &[Register::RayY, Register::Surface])?;
         let ulp = ulp * walk.scale.unit;
         // A kernel's table is read at the nearest entry: half of one off, at slopes of at most 2.
@@ -60,14 +62,14 @@ impl Machine<'_> {
         let moved = (ulp + table) / (up.abs() * plan.geometry.finest_angle);
         (moved > MOVED).then(|| {
             let moved = match moved.is_finite() {
-                true => format!("{} pixels", figure(moved)),
+                true => format!("{} pixels", digits(moved)),
                 false => "without limit".to_owned(),
             };
             format!(
                 "the eye is {} m above the ground, {} last bits of register {register}: what its heights \
                  are rounded by moves the nearest ground by up to {moved}; raise camera.position",
-                figure(up * scene.unit_m),
-                figure(up / ulp)
+                digits(up * scene.unit_m),
+                digits(up / ulp)
             )
         })
     }
@@ -91,14 +93,4 @@ fn around(terrain: &Terrain, x: f64, z: f64) -> f64 {
 fn coarsest(world: &FixedWorld, registers: &[Register]) -> Option<(Register, f64)> {
     let ulp = |&register: &Register| Some((register, world.fixed(register)?.ulp()));
     registers.iter().filter_map(ulp).reduce(|a, b| if b.1 > a.1 { b } else { a })
-}
-
-fn figure(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 || (0.01..1e5).contains(&size) {
-        let text = format!("{value:.2}");
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        format!("{value:.1e}")
-    }
 }

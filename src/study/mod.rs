@@ -7,5 +7,6 @@ pub mod compare;
 pub mod cost;
 pub mod error;
 pub mod explain;
+pub mod figures;
 pub mod probe;
 pub mod ssim;

@@ -111,10 +111,7 @@ impl<T: Bound> Pyramid<T> {
         let mut maxima = None;
         let (mut width, mut height) = (columns, rows);
         let mut levels = Levels::default();
-        // Each level has a quarter of the blocks of the finer one, and some beside the map.
-        let (x, z) = (Axis::new(columns, 0, edge), Axis::new(rows, 0, edge));
-        let finest = x.stored as usize * z.stored as usize;
-        let mut bounds = Vec::with_capacity(finest + finest / 3 + 8 * (columns + rows) as usize + 256);
+        let mut bounds = Vec::new();
         loop {
             let (x, z) = (Axis::new(columns, level, edge), Axis::new(rows, level, edge));
             levels.offset[level as usize] = bounds.len() as i32;

@@ -22,7 +22,6 @@ pub mod action;
 pub mod camera;
 pub mod canvas;
 pub mod desk;
-pub mod ground;
 pub mod input;
 pub mod layout;
 pub mod measure;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::pane::Pane;
 use crate::scene::Scene;
-use crate::sink::picture::ErrorView;
+use crate::sink::picture::errors::ErrorView;
 
 /// What is to be drawn.
 #[derive(Clone, Debug)]

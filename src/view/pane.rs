@@ -1,7 +1,8 @@
 //! What one side of the split shows: a picture, and the engine that draws it.
 
 use crate::engine::Engine;
-use crate::sink::picture::{ErrorPart, Picture};
+use crate::sink::picture::Picture;
+use crate::sink::picture::errors::ErrorPart;
 
 /// A picture by an engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

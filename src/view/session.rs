@@ -11,7 +11,8 @@ use glam::DVec3;
 use crate::engine::Engine;
 use crate::scene::{Camera, Deformation, Scene, Screen, write};
 use crate::scene::height_map::Georeference;
-use crate::sink::picture::{ErrorPart, Picture};
+use crate::sink::picture::Picture;
+use crate::sink::picture::errors::ErrorPart;
 
 use super::action::{Action, Effect, Side};
 use super::camera;

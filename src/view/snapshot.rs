@@ -168,7 +168,8 @@ impl Snapshot {
 mod tests {
     use super::*;
     use crate::engine::Engine;
-    use crate::sink::picture::{ErrorPart, Picture};
+    use crate::sink::picture::Picture;
+use crate::sink::picture::errors::ErrorPart;
 
     const PANE: Pane =
         Pane { engine: Engine::Fast, picture: Picture::Color, part: ErrorPart::Total };

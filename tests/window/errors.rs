@@ -1,7 +1,8 @@
 //! Pictures of errors.
 
 use terraline::engine::Engine;
-use terraline::sink::picture::{ErrorPart, ErrorView, Picture};
+use terraline::sink::picture::Picture;
+use terraline::sink::picture::errors::{ErrorPart, ErrorView};
 use terraline::study::error::Sample;
 use terraline::view::action::{Action, Side};
 use terraline::view::layout::Layout;

@@ -21,7 +21,7 @@ impl Reason {
 }
 
 /// Whether an option sets a key, a part of it, or a table that it stands in.
-pub(super) fn is_set(sets: &[String], key: &str) -> bool {
+pub(crate) fn is_set(sets: &[String], key: &str) -> bool {
     let begins = |long: &str, short: &str| {
         long.strip_prefix(short).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
     };

@@ -281,14 +281,7 @@ pub(super) fn decode(
     if rounded {
         notes.push("heights were rounded to 32-bit floats, which hold 7 digits".to_owned());
     }
-    let storage = Storage {
-        packed: None,
-        format: "ESRI ASCII grid",
-        sample: "text",
-        compression: None,
-        layout: None,
-        byte_order: None,
-    };
+    let storage = Storage::of("ESRI ASCII grid", "text");
     let (nodata, samples) = (header.nodata, thinned(samples, columns, every));
     Found {
         columns,

@@ -22,6 +22,11 @@ impl Encoding {
         ("terrarium", Self::Terrarium),
     ];
 
+    /// The encoding of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::NAMES.iter().find(|(other, _)| *other == name).map(|(_, encoding)| *encoding)
+    }
+
     /// Name in scene files.
     pub fn name(self) -> &'static str {
         self.word()

@@ -67,6 +67,16 @@ pub(super) fn check_size(name: &str, columns: u64, rows: u64) -> Result<(), MapE
     Ok(())
 }
 
+/// The least n for which every n-th of every n-th row makes a map of so many nodes at most.
+pub(super) fn least_thinning(columns: u64, rows: u64, nodes: u64) -> u64 {
+    let fits = |every: &u64| {
+        let (columns, rows) = (columns.div_ceil(*every), rows.div_ceil(*every));
+        columns.max(rows) <= u64::from(MAX_SIDE) && columns * rows <= nodes.max(1)
+    };
+    // One node is left at last.
+    (1..=columns.max(rows)).find(fits).unwrap_or(1)
+}
+
 /// The message for more nodes than a map may have.
 pub(super) fn too_large(name: &str, reason: &str) -> MapError {
     MapError::new(

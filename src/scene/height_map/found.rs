@@ -26,6 +26,13 @@ pub struct Storage {
     pub byte_order: Option<&'static str>,
 }
 
+impl Storage {
+    /// Of a format without a choice of compression, layout and byte order.
+    pub(super) fn of(format: &'static str, sample: &'static str) -> Self {
+        Self { format, packed: None, sample, compression: None, layout: None, byte_order: None }
+    }
+}
+
 /// A height file that was read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeightFile {

@@ -18,7 +18,7 @@ mod samples;
 mod system;
 mod unpack;
 
-use super::error::MapError;
+use super::error::{MapError, gdal};
 use super::found::{Found, HeightFile, Storage};
 use super::interpretation::Interpretation;
 use super::marks::Conversion;
@@ -51,14 +51,11 @@ pub(super) fn decode(
             MapError::new(
                 name,
                 format!("its georeference cannot be used: {reason}"),
-                format!(
-                    "project it first: {}",
-                    super::error::gdal("gdalwarp -t_srs EPSG:4326", name)
-                ),
+                format!("project it first: {}", gdal("gdalwarp -t_srs EPSG:4326", name)),
             )
         })?;
     let grid = grid::read(&tiff, heights, name, &image, &mut notes)?;
-    let south_up = grid.is_some_and(|grid| grid.step.y > 0.0);
+    let turned_over = grid.is_some_and(|grid| grid.step.y > 0.0);
     if let Some(grid) = grid {
         grid.place(factor, image.rows, &mut georeference);
     }
@@ -80,18 +77,15 @@ pub(super) fn decode(
             ));
         }
     }
-    if south_up {
+    if turned_over {
         turn_over(&mut samples, image.columns.div_ceil(every));
         notes.push("the rows run from south to north: turned over".to_owned());
     }
-    let turned_over = south_up;
     let storage = Storage {
-        packed: None,
-        format: if tiff.big { "BigTIFF" } else { "GeoTIFF" },
-        sample: image.sample.name(),
         compression: Some(image.compression_name()),
         layout: Some(image.layout_name()),
         byte_order: Some(if tiff.big_endian { "big-endian" } else { "little-endian" }),
+        ..Storage::of(if tiff.big { "BigTIFF" } else { "GeoTIFF" }, image.sample.name())
     };
     let (columns, rows) = (image.columns, image.rows);
     Found { columns, rows, samples, storage, georeference, nodata, turned_over, conversion, notes }

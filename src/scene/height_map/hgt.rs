@@ -96,14 +96,7 @@ pub(super) fn decode(
         pixel_is: Some(PixelIs::Point),
         ..Georeference::unknown()
     };
-    let storage = Storage {
-        packed: None,
-        format: "SRTM HGT",
-        sample: "int16",
-        compression: None,
-        layout: None,
-        byte_order: Some("big-endian"),
-    };
+    let storage = Storage { byte_order: Some("big-endian"), ..Storage::of("SRTM HGT", "int16") };
     let nodata = Some(f64::from(VOID));
     let every = asked.every(name, columns as u64, rows as u64)?;
     let samples = thinned(samples, columns, every);

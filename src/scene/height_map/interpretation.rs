@@ -1,7 +1,7 @@
 //! What a user says of a height file beside what the file says itself.
 
 use super::encoding::Encoding;
-use super::error::{MAX_NODES, MAX_SIDE, MapError, gdal};
+use super::error::{MAX_NODES, MAX_SIDE, MapError, gdal, least_thinning};
 use super::memory;
 use super::unit;
 use crate::scene::shown::ordinal;
@@ -41,32 +41,28 @@ impl Interpretation {
 
     /// Which nodes of `columns` x `rows` are kept: every n-th.
     pub(super) fn every(&self, name: &str, columns: u64, rows: u64) -> Result<usize, MapError> {
-        let fits = |every: u64, nodes: u64| {
-            let (columns, rows) = (columns.div_ceil(every), rows.div_ceil(every));
-            columns.max(rows) <= u64::from(MAX_SIDE) && columns * rows <= nodes
-        };
         let every = match self.thinning {
             Thinning::None => 1,
             Thinning::Every(every) => every.max(1) as u64,
-            Thinning::Fit(nodes) => {
-                let nodes = nodes.clamp(4, MAX_NODES);
-                (1..).find(|&every| fits(every, nodes)).unwrap_or(1)
-            }
+            Thinning::Fit(nodes) => least_thinning(columns, rows, nodes.min(MAX_NODES)),
         };
-        if fits(every, MAX_NODES) {
-            let thinner = |enough: u64| {
-                let enough = every * enough;
-                format!(
-                    "surface.thin = {enough} keeps every {} node, or free some memory (ulimit -v, \
+        let enough = least_thinning(columns, rows, MAX_NODES);
+        if every >= enough {
+            memory::refuse_too_large(
+                name,
+                columns.div_ceil(every),
+                rows.div_ceil(every),
+                |more| {
+                    let enough = every * more;
+                    format!(
+                        "surface.thin = {enough} keeps every {} node, or free some memory (ulimit -v, \
                      other programs)",
-                    ordinal(enough)
-                )
-            };
-            let (columns, rows) = (columns.div_ceil(every), rows.div_ceil(every));
-            memory::refuse_too_large(name, columns, rows, thinner)?;
+                        ordinal(enough)
+                    )
+                },
+            )?;
             return Ok(every as usize);
         }
-        let enough = (1..).find(|&every| fits(every, MAX_NODES)).unwrap_or(1);
         Err(MapError::new(
             name,
             format!("the header claims {columns} x {rows} nodes"),

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::error::MapError;
+use super::error::{MapError, least_thinning};
 
 /// Bytes for each node, from reading to the studies of a frame: measured at the peak of `render` on
 /// maps of 4096² and 8192² nodes (70 and 69), and rounded up.
@@ -33,10 +33,7 @@ pub fn refuse_too_large(
         in_words(taken(nodes)),
         in_words(available)
     );
-    let fits = |every: &u64| {
-        taken(columns.div_ceil(*every) * rows.div_ceil(*every)) <= available || *every > columns
-    };
-    let every = (2..).find(fits).unwrap_or(2);
+    let every = least_thinning(columns, rows, nodes_in(available));
     Err(MapError::new(name, reason, remedy(every)))
 }
 

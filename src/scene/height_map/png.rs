@@ -75,18 +75,12 @@ pub(super) fn decode(
             (pixels.iter().map(|&pixel| height(packed(encoding, pixel))).collect(), "uint8 x 3")
         }
     };
-    let storage = Storage {
-        packed: None,
-        format: match encoding {
-            Encoding::Stored => "PNG",
-            Encoding::TerrainRgb => "PNG, Terrain-RGB",
-            Encoding::Terrarium => "PNG, Terrarium",
-        },
-        sample,
-        compression: None,
-        layout: None,
-        byte_order: None,
+    let format = match encoding {
+        Encoding::Stored => "PNG",
+        Encoding::TerrainRgb => "PNG, Terrain-RGB",
+        Encoding::Terrarium => "PNG, Terrarium",
     };
+    let storage = Storage::of(format, sample);
     let mut georeference = Georeference::unknown();
     if encoding != Encoding::Stored {
         georeference.height_unit_m = Some(1.0);

@@ -8,7 +8,8 @@ use crate::scene::framing::PITCH;
 use crate::scene::framing::overlook::{Sight, outline};
 use crate::scene::{Angles, Attitude, Camera, Screen, Surface, Terrain};
 use crate::view::layout::Layout;
-use crate::view::{camera, ground};
+use crate::oracle::ground;
+use crate::view::camera;
 
 /// Notch of the wheel along the line of sight, seconds of flight.
 const DOLLY_SECONDS: f64 = 0.25;

@@ -1,10 +1,10 @@
-//! The ground under the craft.
+//! The ground under a point, without an oracle of the whole map.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::oracle::Oracle;
+use super::Oracle;
 use crate::scene::{HeightMap, Outside, Scene, Surface, Terrain};
 
 /// Nodes beside the cell of the eye: more than any kernel reaches.

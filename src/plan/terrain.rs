@@ -97,7 +97,7 @@ const GENTLE: f64 = 16.0;
 /// The rounding of a step, in pixels: at most this.
 const COARSEST: f64 = 0.5;
 /// The same in words that the plan chooses while there are finer ones.
-const FINE: f64 = 1.0 / 64.0;
+const FINE: f64 = 1.0 / 32.0;
 
 /// Eyes less than this above the highest node start their rays at the eye: the ratio of so thin a
 /// slab would have no bits.
@@ -264,7 +264,7 @@ impl Planned for TerrainPlan {
             };
             coarse.push(Refusal {
                 field,
-                reason: format!("the rounding of a step is {step:.2} pixel, more than 1/64"),
+                reason: format!("the rounding of a step is {step:.2} pixel, more than 1/32"),
                 remedy,
                 register: formats.coarsest(&[R::GroundX, R::GroundZ, R::RayY]),
             });

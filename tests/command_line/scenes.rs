@@ -133,7 +133,7 @@ fn what_formats_do_not_hold_is_told() {
             assert_eq!(output.status.code(), Some(0), "{command} {formats:?}");
             String::from_utf8(output.stdout).unwrap()
         };
-        let claim = "more than 1/64 (ground_x Q24.8)";
+        let claim = "more than 1/32 (ground_x Q24.8)";
         let text = run(&coarse, &[]);
         let told: Vec<_> = text.lines().filter(|line| line.contains("not proved: ")).collect();
         assert!(told.len() == 1 && told[0].ends_with(claim), "{text}");

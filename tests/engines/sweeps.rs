@@ -167,7 +167,7 @@ fn the_plan_speaks_of_the_formats_in_use() {
     let (why, open) = told("overview", &[("ground", 24, 8)]);
     assert!(why.starts_with("positions reach 1060 of 8388608 cells, heights"), "{why}");
     assert!(why.ends_with(coarse), "{why}");
-    let claim = "the rounding of a step is 49.77 pixel, more than 1/64 (ground_x Q24.8)";
+    let claim = "the rounding of a step is 49.77 pixel, more than 1/32 (ground_x Q24.8)";
     assert_eq!(open, [claim]);
     // Each register counts by itself, and the coarsest is to blame.
     let (why, open) = told("overview", &[("ground", 12, 30), ("ground_z", 24, 8)]);
@@ -207,7 +207,7 @@ fn the_plan_speaks_of_the_formats_in_use() {
     // The last bits that are fine enough, and the first that are not.
     for (register, integer, point, part) in [
         ("view", 2, 28, "roundings of the view coefficients"),
-        ("ground", 12, 19, "the rounding of a step is 0.03 pixel"),
+        ("ground", 12, 18, "the rounding of a step is 0.05 pixel"),
     ] {
         let found = claims("overview", (register, integer, point));
         assert!(found.contains(part), "{register}: {found}");

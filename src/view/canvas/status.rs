@@ -114,7 +114,9 @@ fn work(session: &Session, snapshot: &Snapshot, timed: bool) -> Vec<String> {
         });
     }
     if let Some(times) = session.exaggeration() {
-        items.push(format!("heights x {}", figure(times)));
+        // Scales in scene files are rounded: to three digits they are what was chosen.
+        let times = format!("{times:.2}");
+        items.push(format!("heights x {}", times.trim_end_matches('0').trim_end_matches('.')));
     }
     let layout = session.layout();
     let scale = if layout.scale > 1 { format!(" x {}", layout.scale) } else { String::new() };
